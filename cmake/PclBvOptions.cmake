@@ -15,6 +15,8 @@ option(PCL_BV_NODES_PCL "Find what grabbers and a live window need of PCL, and t
 option(PCL_BV_LARGE_TESTS "Build the tests that write files of gigabytes" OFF)
 option(PCL_BV_FUZZ "Build only the fuzzers of the readers; needs clang" OFF)
 option(PCL_BV_UNITY "Compile the sources of a library together: a build from nothing is faster, one after a change slower" OFF)
+set(PCL_BV_ISAS all CACHE STRING
+    "Instruction sets to compile kernels for: all, native (this machine's best), or a list of scalar sse4 avx2 avx512 neon sve sve2")
 option(PCL_BV_WERROR "Treat warnings as errors" OFF)
 set(PCL_BV_SANITIZE "" CACHE STRING "Sanitizers for all targets, as for -fsanitize=")
 set(PCL_BV_GTEST_SOURCE "" CACHE PATH "GoogleTest's sources, to build it with the tests instead of finding it")

@@ -8,9 +8,13 @@
 // SSE2 and SSSE3 are disabled, because they gain nothing over SSE4 and the scalar reference. The specialised
 // targets (AVX3_DL to AVX3_SPR, SVE_256 and SVE2_128) only repeat the general targets. In Highway 1.0.5 or
 // later, the NEON target requires AES instructions. No kernel uses them, and a Raspberry Pi 4 lacks them.
+// PCL_BV_EXCLUDED_TARGETS are the targets that the option PCL_BV_ISAS of CMake leaves out.
+#ifndef PCL_BV_EXCLUDED_TARGETS
+#define PCL_BV_EXCLUDED_TARGETS 0
+#endif
 #define HWY_DISABLED_TARGETS                                                                                \
   (HWY_SSE2 | HWY_SSSE3 | HWY_AVX3_DL | HWY_AVX3_ZEN4 | HWY_AVX3_SPR | PCL_BV_NEON_WITH_AES | HWY_SVE_256 | \
-   HWY_SVE2_128)
+   HWY_SVE2_128 | PCL_BV_EXCLUDED_TARGETS)
 #define HWY_BROKEN_EMU128 1  // without SIMD the scalar reference runs
 
 #include <hwy/detect_targets.h>

@@ -1,0 +1,56 @@
+# Which instruction sets the kernels are compiled for: PCL_BV_ISAS. Results have the same bits with each of them.
+
+set(pcl_bv_isas sse4 avx2 avx512 neon sve sve2)
+# Highway's name for each of them.
+set(pcl_bv_isa_targets HWY_SSE4 HWY_AVX2 HWY_AVX3 PCL_BV_NEON HWY_SVE HWY_SVE2)
+
+# pcl_bv_native_isa(out): the set that programs choose on a processor such as this one; empty if only scalar code can
+# run. The macros are those by which Highway recognises a target.
+function(pcl_bv_native_isa out)
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -march=native -dM -E -x c++ /dev/null
+                  OUTPUT_VARIABLE macros RESULT_VARIABLE status ERROR_QUIET)
+  if(CMAKE_CROSSCOMPILING OR NOT status EQUAL 0)
+    message(FATAL_ERROR "PCL_BV_ISAS: '${CMAKE_CXX_COMPILER}' cannot compile for the processor of this machine")
+  endif()
+  set(sse4 SSE4_2 AES PCLMUL)
+  set(avx2 ${sse4} AVX2 BMI BMI2 FMA F16C)
+  set(avx512 ${avx2} AVX512F AVX512VL AVX512DQ AVX512BW)
+  set(neon ARM_NEON)
+  set(native "")
+  foreach(isa sse4 avx2 avx512 neon) # the best one last
+    set(missing FALSE)
+    foreach(macro ${${isa}})
+      if(NOT macros MATCHES "#define __${macro}(__)? ")
+        set(missing TRUE)
+      endif()
+    endforeach()
+    if(NOT missing)
+      set(native ${isa})
+    endif()
+  endforeach()
+  set(${out} "${native}" PARENT_SCOPE)
+endfunction()
+
+# pcl_bv_select_isas(target): `target` compiles kernels only for the sets in PCL_BV_ISAS.
+function(pcl_bv_select_isas target)
+  set(selected ${PCL_BV_ISAS})
+  if(selected STREQUAL "all")
+    return()
+  endif()
+  if(selected STREQUAL "native")
+    pcl_bv_native_isa(selected)
+    message(STATUS "Kernels are compiled for: scalar ${selected}")
+  endif()
+  foreach(isa ${selected})
+    if(NOT isa IN_LIST pcl_bv_isas AND NOT isa STREQUAL "scalar")
+      message(FATAL_ERROR "PCL_BV_ISAS: '${isa}' is not one of: all native scalar ${pcl_bv_isas}")
+    endif()
+  endforeach()
+  set(excluded 0)
+  foreach(isa highway IN ZIP_LISTS pcl_bv_isas pcl_bv_isa_targets)
+    if(NOT isa IN_LIST selected)
+      string(APPEND excluded "|${highway}")
+    endif()
+  endforeach()
+  target_compile_definitions(${target} PRIVATE "PCL_BV_EXCLUDED_TARGETS=(${excluded})")
+endfunction()
