@@ -57,10 +57,10 @@ void dito_against_its_passes(benchmark::State& state, const std::string& name) {
   compare(
       state, [&] { volume = *find_method("obb-dito14")->fit(cloud.view()); },
       [&] {
-        const detail::Supports supports =
+        detail::Supports supports =
             detail::find_supports(cloud.view(), DirectionSet::dop14, detail::SupportDetail::points, {});
         benchmark::DoNotOptimize(supports);
-        const detail::CustomSupports along = detail::find_supports(cloud.view(), directions);
+        detail::CustomSupports along = detail::find_supports(cloud.view(), directions);
         benchmark::DoNotOptimize(along);
       });
 }

@@ -27,7 +27,8 @@ bool same(const Neighbor& a, const Neighbor& b) {
 class Asked {
  public:
   Asked(const std::string& scene, Isa isa, std::uint64_t seed) : random_(seed) {
-    const Cloud& made = cloud({scene, 2048});
+    const CloudName name{scene, 2048};
+    const Cloud& made = cloud(name);
     for (const pcl::PointXYZ& p : *made.pcl)
       points_.push_back(p.getVector3fMap().cast<double>());
     tree_.assign(made.view, {Serial{}, isa});

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pcl_bv/estimation/fit_cloud.h"
@@ -56,6 +57,9 @@ class PointTreeSearch : public pcl::search::Search<PointT> {
   using IndicesConstPtr = typename Base::IndicesConstPtr;
   using Ptr = pcl::shared_ptr<PointTreeSearch>;
   using ConstPtr = pcl::shared_ptr<const PointTreeSearch>;
+  /// What setInputCloud() returns: bool since PCL 1.15, before that void.
+  using SetInputResult = decltype(std::declval<Base&>().setInputCloud(
+      std::declval<const PointCloudConstPtr&>(), std::declval<const IndicesConstPtr&>()));
   using Base::nearestKSearch;
   using Base::radiusSearch;
 
@@ -77,15 +81,16 @@ class PointTreeSearch : public pcl::search::Search<PointT> {
   /// points, so the cloud may change afterwards. The search also stores `cloud` and `indices`, because
   /// queries by index read the query point from the cloud. If the cloud is null or has no valid point, all
   /// results are empty. O(n log n). Throws std::out_of_range for an index outside the cloud, and then changes
-  /// nothing.
-  void setInputCloud(const PointCloudConstPtr& cloud,
-                     const IndicesConstPtr& indices = IndicesConstPtr()) override {
+  /// nothing. Returns true where PCL's method has a result.
+  SetInputResult setInputCloud(const PointCloudConstPtr& cloud,
+                               const IndicesConstPtr& indices = IndicesConstPtr()) override {
     tree_.assign(!cloud    ? PointView()
                  : indices ? point_view(*cloud, *indices)
                            : point_view(*cloud),
                  execution_);
     this->input_ = cloud;
     this->indices_ = indices;
+    return static_cast<SetInputResult>(true);
   }
 
   /// Returns the tree, for queries that PCL's interface does not have.
