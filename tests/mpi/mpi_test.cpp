@@ -37,11 +37,17 @@ std::optional<int> process_of_rank(int launcher, int rank) {
   return std::nullopt;
 }
 
+// Open MPI 5 begins a line within.
+const auto kKilled = testing::ContainsRegex("exited on[ \n]signal 9 \\(Killed\\)");
+
 class Mpi : public TiledObjects {
  protected:
   Mpi() {
     for (const char* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"})
       setenv(name, "1", 1);
+    // Ranks on one machine have shared memory. Open MPI 5 reports a machine that has no network to standard
+    // error.
+    setenv("OMPI_MCA_btl", "^tcp", 1);
   }
 
   Result ranks(int count, std::vector<std::string> arguments, Surroundings surroundings = {}) const {
@@ -143,13 +149,17 @@ TEST_F(Mpi, LeavesOutAnInputThatFailsOnOneRankAndNamesItOnce) {
 TEST_F(Mpi, DealsOutInputsAndWritesResultsInTheirOrder) {
   const std::string folder = tiles("tiles", gaussian(120'000, 6), 30);
   file("tiles/15a.pcd", "no cloud");
-  const std::vector<std::string> options{"--format", "json", "--volume", "all", "--check", folder};
-  const Result expected = run(options);
-  ASSERT_EQ(expected.status, 1);
+  // Into a file: the mpirun of Open MPI 5.0.7 writes parts of standard output to standard error if a rank
+  // uses both.
+  const std::vector<std::string> options{"--format", "json",     "--volume",   "all",
+                                         "--check",  "--output", at("o.json"), folder};
+  ASSERT_EQ(run(options).status, 1);
+  const std::string expected = read_file(at("o.json"));
   for (const int count : {1, 2, 5}) {
+    std::filesystem::remove(at("o.json"));
     const Result result = ranks(count, options);
     EXPECT_EQ(result.status, 1);
-    EXPECT_TRUE(result.out == expected.out) << count;
+    EXPECT_TRUE(read_file(at("o.json")) == expected) << count;
     EXPECT_THAT(result.err, HasSubstr("pcd_bv_mpi: " + at("tiles/15a.pcd") + ": "));
     EXPECT_THAT(result.err, HasSubstr("31 files: 30 done, 1 failed, 120000 points"));
   }
@@ -184,7 +194,7 @@ TEST_F(Mpi, EndsWithALineAndWritesNothingWhenARankIsKilled) {
                endless, endless, endless, endless, endless, endless, endless, endless});
     EXPECT_NE(result.status, 0);
     EXPECT_NE(result.status, 124) << "it had to be told to end";
-    EXPECT_THAT(result.err, HasSubstr("exited on signal 9 (Killed)"));
+    EXPECT_THAT(result.err, kKilled);
     EXPECT_EQ(files(), 0U);
   }
 }
@@ -196,7 +206,7 @@ TEST_F(Mpi, KeepsWhatIsDoneWhenARankIsKilledAmongManyInputs) {
   arguments.insert(arguments.end(), 40, "synth:surface:3000000");
   const Result result = ranks_of_which_one_is_killed(1, arguments);
   EXPECT_NE(result.status, 0);
-  EXPECT_THAT(result.err, HasSubstr("exited on signal 9 (Killed)"));
+  EXPECT_THAT(result.err, kKilled);
   EXPECT_THAT(result.err, HasSubstr("pcd_bv_mpi: interrupted: "));
   if (std::filesystem::exists(at("o.json"))) {
     EXPECT_GE(Json::parse(read_file(at("o.json"))).size(), 1U);
