@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstring>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "fields.h"
@@ -58,7 +57,9 @@ class PythonText {
   std::string_view word() {
     peek();
     const std::size_t end = std::min(text_.find_first_of(" ,)}]\n", at_), text_.size());
-    return text_.substr(std::exchange(at_, end), end - at_);
+    const std::string_view found = text_.substr(at_, end - at_);
+    at_ = end;
+    return found;
   }
 
   // A tuple such as (3,) or ().
