@@ -121,7 +121,7 @@ class ClusterFitter {
     const FitExecution prepared =
         share_supports(points, with_slabs ? fits_.methods_ : other_methods_, execution, shared);
     if (set_ && with_slabs)
-      store_slabs(cluster, find_supports(points, *set_, SupportDetail::points, prepared));
+      store_slabs(cluster, find_supports(points, *set_, SupportDetail::bounds, prepared));
     for (std::size_t m = 0; m < fits_.methods_.size(); ++m) {
       if (fits_.others_[m].empty()) continue;
       fits_.results_[cluster] =
