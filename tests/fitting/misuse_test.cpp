@@ -187,5 +187,22 @@ TEST(Misuse, BoxesRefuseAnotherNumberOfValidPointsInALaterPass) {
   }
 }
 
+TEST(Misuse, ObbPcaRefusesAnotherNumberOfValidPointsThanItsSharedBoxHas) {
+  const TestCloud<float> cloud = test::gaussian<float>(1500, 9);
+  TestCloud<float> later = cloud;  // of the same box: only points within it are gone
+  for (std::size_t i = 1; i < 1500; ++i) {
+    const Eigen::Vector3f p(later.xyz[3 * i], later.xyz[3 * i + 1], later.xyz[3 * i + 2]);
+    if (p.norm() < 1) later.xyz[3 * i] = std::numeric_limits<float>::quiet_NaN();
+  }
+  CopyingSource<float> source(cloud);
+  Supports supports;
+  const std::vector<const Method*> both{find_method("aabb"), find_method("obb-pca")};
+  const FitExecution shared = share_supports(source.view(), both, {}, supports);
+  source.later = &later;
+  source.loads_before = source.loads;
+  AnyVolume volume;
+  EXPECT_THROW(fit_method(*both[1], source.view(), {}, volume, shared), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace pcl_bv::detail

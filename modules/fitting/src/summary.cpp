@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "local_frame.h"
 #include "map_chunks.h"
@@ -15,6 +16,7 @@
 #include "pcl_bv/numeric/float_environment.h"
 #include "pcl_bv/points/point_source.h"
 #include "point_rank.h"
+#include "same_points.h"
 #include "schedule.h"
 #include "support/support_search.h"
 
@@ -50,45 +52,42 @@ Moments pass(const PointView& points, const FitExecution& execution, std::size_t
   return moments.total();
 }
 
-// Returns the summary of points whose supports and moments are known already.
-Summary known_summary(const Supports& supports) {
-  Summary summary;
-  summary.supports = supports;
-  static_cast<Spread&>(summary) = spread_of(*supports.moments, supports);
-  return summary;
+// Returns the summary of points with these supports and moments.
+Summary summary_of(Supports supports, const Moments& moments) {
+  const CentroidAndCovariance found = centroid_and_covariance(moments, supports);
+  return {found, std::move(supports)};
 }
 
 }  // namespace
 
-Spread spread_of(Moments moments, const Supports& supports) {
-  Spread spread;
-  if (moments.count == 0) return spread;
+CentroidAndCovariance centroid_and_covariance(Moments moments, const Supports& supports) {
+  CentroidAndCovariance found;
+  if (moments.count == 0) return found;
   const double extent = widest_side(supports);
   if (!(extent > 0 && extent < 1e-99)) coarsen(0, moments);
-  spread.covariance_scale = std::ldexp(1.0, moments.exponent);
+  found.covariance_scale = std::ldexp(1.0, moments.exponent);
   const double n = static_cast<double>(moments.count);
   const double from[3] = {moments.origin.x, moments.origin.y, moments.origin.z};
   double mean[3];
   for (int axis = 0; axis < 3; ++axis) {
     mean[axis] = moments.sum[axis] / n;
-    spread.centroid[axis] = std::clamp(from[axis] + mean[axis] / spread.covariance_scale,
-                                       supports.along[axis].low, supports.along[axis].high) +
-                            0.0;
+    found.centroid[axis] = std::clamp(from[axis] + mean[axis] / found.covariance_scale,
+                                      supports.along[axis].low, supports.along[axis].high) +
+                           0.0;
   }
   std::size_t k = 0;
   for (int i = 0; i < 3; ++i) {
     for (int j = i; j < 3; ++j, ++k) {
       const double value = moments.product[k] / n - mean[i] * mean[j];
-      spread.covariance(i, j) = spread.covariance(j, i) = i == j ? std::max(value, 0.0) : value;
+      found.covariance(i, j) = found.covariance(j, i) = i == j ? std::max(value, 0.0) : value;
     }
   }
-  return spread;
+  return found;
 }
 
 Summary summarize(const PointView& points, const FitExecution& execution) {
   require_matching_supports(points, execution);
-  if (represents_cloud(execution)) return known_summary(*execution.supports);
-  Summary summary;
+  if (represents_cloud(execution)) return summary_of(*execution.supports, *execution.supports->moments);
   constexpr DirectionSet set = DirectionSet::dop26;
   const SupportDirections& directions = SupportDirections::of(set);
   SupportSearch search(execution.isa, directions, points.count);
@@ -97,36 +96,33 @@ Summary summarize(const PointView& points, const FitExecution& execution) {
       points, execution, 2 * directions.count * points.count,
       [&](const PointView& chunk) { return search.find(chunk); },
       [&](const ChunkSupports& found) { search.merge(found); });
-  summary.supports = supports_of_search(search, set, points, search.dropped());
-  summary.supports.rank = point_rank(points, summary.supports, execution);
-  static_cast<Spread&>(summary) = spread_of(moments, summary.supports);
-  return summary;
+  Supports supports = supports_of_search(search, set, points, search.dropped());
+  supports.rank = point_rank(points, supports, execution);
+  return summary_of(std::move(supports), moments);
 }
 
 Summary summarize_bounds(const PointView& points, const FitExecution& execution) {
   require_matching_supports(points, execution);
-  if (represents_cloud(execution)) return known_summary(*execution.supports);
-  Summary summary;
+  if (represents_cloud(execution)) return summary_of(*execution.supports, *execution.supports->moments);
   if (execution.supports != nullptr) {
     struct Nothing {};
-    summary.supports = find_supports(points, DirectionSet::dop6, SupportDetail::bounds, execution);
+    Supports supports = find_supports(points, DirectionSet::dop6, SupportDetail::bounds, execution);
     const Moments moments = pass<Nothing>(
         points, execution, kMaxDirections * points.count, [](const PointView&) { return Nothing(); },
         [](const Nothing&) {});
-    static_cast<Spread&>(summary) = spread_of(moments, summary.supports);
-    return summary;
+    require_same_points(moments.count == supports.used);
+    return summary_of(std::move(supports), moments);
   }
-  summary.supports = empty_bounds(points);
+  Supports supports = empty_bounds(points);
   // The count is that of the supports of a 26-DOP, because the moments take about as much time as these
   // supports. The time of the box is negligible.
   const Moments moments = pass<AxisExtents>(
       points, execution, kMaxDirections * points.count,
       [&](const PointView& chunk) { return axis_extents(execution.isa, chunk); },
-      [&](const AxisExtents& found) { merge_bounds(found, summary.supports); });
-  finish_bounds(summary.supports);
-  summary.supports.rank = point_rank(points, summary.supports, execution);
-  static_cast<Spread&>(summary) = spread_of(moments, summary.supports);
-  return summary;
+      [&](const AxisExtents& found) { merge_bounds(found, supports); });
+  finish_bounds(supports);
+  supports.rank = point_rank(points, supports, execution);
+  return summary_of(std::move(supports), moments);
 }
 
 }  // namespace pcl_bv::detail

@@ -12,14 +12,14 @@
 namespace pcl_bv::detail {
 
 /// Centroid and covariance of a cloud, with the meaning of CloudSummary.
-struct Spread {
+struct CentroidAndCovariance {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double covariance_scale = 1;
 };
 
 /// Supports, centroid and covariance of a cloud.
-struct Summary : Spread {
+struct Summary : CentroidAndCovariance {
   Supports supports;  ///< With dop26 and SupportDetail::points, except after summarize_bounds().
 
   EstimationResult result() const { return result_of(supports); }
@@ -32,7 +32,7 @@ Summary summarize(const PointView& points, const FitExecution& execution);
 /// 300 points this is three times as fast. Needs a FloatEnvironment.
 Summary summarize_bounds(const PointView& points, const FitExecution& execution);
 
-/// Returns the centroid and the covariance of points with these moments and supports.
-Spread spread_of(Moments moments, const Supports& supports);
+/// Returns the centroid and the covariance of points with these moments and supports. Without points, zeros.
+CentroidAndCovariance centroid_and_covariance(Moments moments, const Supports& supports);
 
 }  // namespace pcl_bv::detail

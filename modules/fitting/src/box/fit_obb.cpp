@@ -99,7 +99,7 @@ Obb box_between(const Eigen::Matrix3d& axes, const Eigen::Vector3d& origin, cons
   return {center, axes, half_extents};
 }
 
-std::array<Direction, 3> directions_of(const Eigen::Matrix3d& axes) {
+std::array<Direction, 3> columns_of(const Eigen::Matrix3d& axes) {
   return {direction(axes.col(0)), direction(axes.col(1)), direction(axes.col(2))};
 }
 
@@ -134,8 +134,7 @@ Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Supp
   const LoadedPoints loaded(points, 0, points.count);
   const std::optional<Coordinates> origin = first_valid(loaded.view());
   require_same_points(origin && within(supports, *origin));
-  return box_of_extents(axes, *origin, supports,
-                        slab_extents(isa, loaded.view(), *origin, directions_of(axes)));
+  return box_of_extents(axes, *origin, supports, slab_extents(isa, loaded.view(), *origin, columns_of(axes)));
 }
 
 // Measures the box of many points. The support search rejects nearly all points in float arithmetic, and its
@@ -143,7 +142,7 @@ Obb measure_few(const Eigen::Matrix3d& axes, const PointView& points, const Supp
 Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Supports& supports,
                  const FitExecution& execution) {
   SupportDirections directions;
-  for (const Direction& axis : directions_of(axes))
+  for (const Direction& axis : columns_of(axes))
     directions.add(axis);
   SupportSearch search(execution.isa, directions, points.count);
   search.run(points, execution);
@@ -157,16 +156,17 @@ Obb measure_many(const Eigen::Matrix3d& axes, const PointView& points, const Sup
   return Obb::from_slabs(axes, low, high);
 }
 
-// Copies the points once, for the moments and for the measurement.
-EstimationResult fit_few(const PointView& points, Obb& box, const FitExecution& execution) {
+// Fits the box to at most kBlockPoints points in memory. Copies them once: the moments and the extents read
+// this copy.
+EstimationResult fit_pca_of_block(const PointView& points, Obb& box, const FitExecution& execution) {
   std::optional<Supports> own;
   const Supports& supports = find_box(points, execution, own);
   if (supports.used > 0) {
     BlockOffsets offsets;
     const Moments moments = block_moments(execution.isa, points, offsets);
     require_same_points(moments.count == supports.used && within(supports, moments.origin));
-    const Eigen::Matrix3d axes = principal_axes(spread_of(moments, supports));
-    const SlabExtents found = slab_extents(execution.isa, offsets, directions_of(axes));
+    const Eigen::Matrix3d axes = principal_axes(centroid_and_covariance(moments, supports));
+    const SlabExtents found = slab_extents(execution.isa, offsets, columns_of(axes));
     box = box_of_extents(axes, moments.origin, supports, found).canonical();
   }
   return result_of(supports);
@@ -174,7 +174,7 @@ EstimationResult fit_few(const PointView& points, Obb& box, const FitExecution& 
 
 EstimationResult fit_pca(const PointView& points, Obb& box, const FitExecution& execution) {
   if (points.source == nullptr && points.count <= kBlockPoints && !represents_cloud(execution))
-    return fit_few(points, box, execution);
+    return fit_pca_of_block(points, box, execution);
   const Summary summary = summarize_bounds(points, execution);
   if (summary.supports.used > 0)
     box = measured_box(principal_axes(summary), points, summary.supports, execution).canonical();
@@ -190,8 +190,8 @@ Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Sup
                                                         : measure_many(axes, points, supports, execution);
 }
 
-Eigen::Matrix3d principal_axes(const Spread& spread) {
-  return symmetric_eigen(spread.covariance).vectors;
+Eigen::Matrix3d principal_axes(const CentroidAndCovariance& points) {
+  return symmetric_eigen(points.covariance).vectors;
 }
 
 EstimationResult fit_obb(const PointView& points, const ObbOptions& options, Obb& box,

@@ -24,7 +24,7 @@ Obb measured_box(const Eigen::Matrix3d& axes, const PointView& points, const Sup
                  const FitExecution& execution);
 
 /// Returns the eigenvectors of the covariance, in descending order of the eigenvalues.
-Eigen::Matrix3d principal_axes(const Spread& spread);
+Eigen::Matrix3d principal_axes(const CentroidAndCovariance& points);
 
 /// Returns orthonormal axes, the first of which is `e`, a unit vector.
 Eigen::Matrix3d axes_from(const Eigen::Vector3d& e);

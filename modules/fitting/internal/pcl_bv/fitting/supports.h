@@ -123,8 +123,9 @@ struct FitExecution : Execution {
 Supports find_supports(const PointView& points, DirectionSet set, SupportDetail detail,
                        const FitExecution& execution = {});
 
-/// Returns supports whose first three elements are those of find_supports() along dop6 with
-/// SupportDetail::bounds: FitExecution::supports if not null, and otherwise `own`, to which they are written.
+/// Returns FitExecution::supports if it is not null. Otherwise finds the box of the points, stores it in
+/// `own` and returns `own`. The first three elements are the bounds along the coordinate axes; others may be
+/// missing. Throws std::invalid_argument if FitExecution::supports are those of other points.
 const Supports& find_box(const PointView& points, const FitExecution& execution,
                          std::optional<Supports>& own);
 
