@@ -76,10 +76,7 @@ void expect_same_of_groups() {
         AnyVolume volume;
         const EstimationResult result = test::take(method.fit(groups.view(), {}, {Serial{}, isa}), volume);
         EXPECT_EQ(bits(volume), bits(expected));
-        EXPECT_EQ(result.status, said.status);
-        EXPECT_EQ(result.rank, said.rank);
-        EXPECT_EQ(result.used, said.used);
-        EXPECT_EQ(result.dropped, said.dropped);
+        test::expect_same_result(result, said);
       }
     }
   }

@@ -69,10 +69,10 @@ void expect_fits_of(const Partial& expected, const Partial& joined, const PointV
     const EstimationResult result = test::take(joined.fit(method), volume);
     const EstimationResult whole = test::take(expected.fit(method), one);
     const std::string what = where + ", " + std::string(method.name);
-    EXPECT_EQ(result.status, whole.status) << what;
-    EXPECT_EQ(result.rank, whole.rank) << what;
-    EXPECT_EQ(result.used, whole.used) << what;
-    EXPECT_EQ(result.dropped, whole.dropped) << what;
+    {
+      SCOPED_TRACE(what);
+      test::expect_same_result(result, whole);
+    }
     EXPECT_EQ(verify(volume, points).outside, 0U) << what;
     if (uses_sums(method) && points.count > Partial::kMaxStored) {
       EXPECT_NEAR(pcl_bv::volume(volume), pcl_bv::volume(one), 1e-6 * pcl_bv::volume(one)) << what;

@@ -72,10 +72,9 @@ void expect_same_fits() {
         for (const Execution& execution : {Execution{}, Execution{OpenMP{3}}}) {
           AnyVolume passing;
           const EstimationResult result = test::take(method.fit(source.view(), options, execution), passing);
-          EXPECT_TRUE(passing == held) << cloud.name << ", " << method.name;
-          EXPECT_EQ(result.used, expected.used);
-          EXPECT_EQ(result.dropped, expected.dropped);
-          EXPECT_EQ(result.rank, expected.rank);
+          SCOPED_TRACE(cloud.name + ", " + std::string(method.name));
+          EXPECT_TRUE(passing == held);
+          test::expect_same_result(result, expected);
         }
       }
     }
@@ -105,9 +104,7 @@ void expect_same_fits_of_few() {
         const EstimationResult expected = test::take(method.fit(points), held);
         const EstimationResult result = test::take(method.fit(passing_points), passing);
         EXPECT_EQ(test::bits(passing), test::bits(held));
-        EXPECT_EQ(result.used, expected.used);
-        EXPECT_EQ(result.dropped, expected.dropped);
-        EXPECT_EQ(result.rank, expected.rank);
+        test::expect_same_result(result, expected);
       }
     }
   }

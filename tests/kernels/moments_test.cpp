@@ -57,7 +57,7 @@ class MomentsTest : public testing::TestWithParam<Isa> {
 
   void expect_offsets(const PointView& points, const Moments& moments) {
     BlockOffsets offsets;
-    std::fill_n(offsets.x, kBlockPoints, 7);  // what no offset may be left of
+    std::fill_n(offsets.x, kBlockPoints, 7);  // each stored offset must overwrite it
     std::fill_n(offsets.y, kBlockPoints, 7);
     std::fill_n(offsets.z, kBlockPoints, 7);
     const Moments again = block_moments(GetParam(), points, offsets);

@@ -4,6 +4,8 @@
 // Fits whose volume and result a test wants apart.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <utility>
 
 #include "pcl_bv/fitting/fit.h"
@@ -28,6 +30,14 @@ EstimationResult take(Certified<VolumeT, CertificateT>&& fitted, VolumeT& volume
 inline EstimationResult take(KdopWithContacts&& fitted, Kdop& kdop, SlabPoints& contacts) {
   contacts = std::move(fitted.contacts);
   return take(static_cast<Fitted<Kdop>&&>(fitted), kdop);
+}
+
+/// Expects the status, the rank and the counts of `expected`.
+inline void expect_same_result(const EstimationResult& result, const EstimationResult& expected) {
+  EXPECT_EQ(result.status, expected.status);
+  EXPECT_EQ(result.rank, expected.rank);
+  EXPECT_EQ(result.used, expected.used);
+  EXPECT_EQ(result.dropped, expected.dropped);
 }
 
 }  // namespace pcl_bv::test
