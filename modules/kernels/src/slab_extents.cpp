@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Each block is first copied to groups. The origin replaces invalid points and fills the last group. The
-// origin changes no extent, since its projection is 0 and low <= 0 <= high. After the copy, the loads are the
-// same for all layouts, and the block is in the first-level cache.
+// A block of points is first copied to groups; offsets are read where they are. The origin replaces invalid
+// points and fills the last group. The origin changes no extent, since its projection is 0 and low <= 0 <=
+// high. After the copy, the loads are the same for all layouts, and the block is in the first-level cache.
 
 #include "pcl_bv/kernels/slab_extents.h"
 

@@ -31,8 +31,8 @@ struct SlabExtents {
 SlabExtents slab_extents(UsableIsa isa, const PointView& points, const Coordinates& origin,
                          const std::array<Direction, 3>& axes);
 
-/// Same for the points and the origin of `offsets`, which block_moments() stored. For 300 points this takes
-/// half of the time, because nothing is copied (AVX-512, Xeon of model 207).
+/// Same for the points and the origin of `offsets`, which block_moments() stored. Copies nothing:
+/// obb-pca of 300 points takes 14 % less time (bench_obb, AVX-512, Intel Xeon of family 6 model 207).
 SlabExtents slab_extents(UsableIsa isa, const BlockOffsets& offsets, const std::array<Direction, 3>& axes);
 
 }  // namespace detail
