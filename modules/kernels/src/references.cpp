@@ -307,7 +307,8 @@ SlabExtents slab_extents_of_offsets_reference(const BlockOffsets& offsets,
 void fill_groups_reference(const PointView& points, std::size_t pad, std::byte* groups) {
   for_scalar(points, [&]<typename T>() {
     constexpr std::size_t lanes = kGroupBytes / sizeof(T);
-    for (std::size_t i = 0; i < points.count || i % lanes != 0; ++i) {
+    const std::size_t end = (points.count + lanes - 1) / lanes * lanes;
+    for (std::size_t i = 0; i < end; ++i) {
       T v[3];
       load_point(points, i < points.count ? i : pad, v);
       std::byte* group = groups + i / lanes * (3 * kGroupBytes);
