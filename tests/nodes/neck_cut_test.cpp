@@ -38,7 +38,10 @@ struct Cloud {
 void add_person(Cloud& cloud, int owner, double x, double y, std::size_t count, std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   for (std::size_t i = 0; i < count; ++i) {
-    Eigen::Vector3d p = Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
+    Eigen::Vector3d p;
+    for (const int axis : {2, 1, 0})  // not as arguments, whose order depends on the compiler
+      p[axis] = normal(random);
+    p.normalize();
     p = i % 16 == 0
             ? Eigen::Vector3d(0.06 * p.x() + (p.y() > 0 ? 0.24 : -0.24), 0.06 * p.y(), 0.3 * p.z() + 1.1)
             : Eigen::Vector3d(0.2 * p.x(), 0.15 * p.y(), 0.85 * p.z() + 0.85);
@@ -51,7 +54,9 @@ void add_box(Cloud& cloud, int owner, const Eigen::Vector3d& low, const Eigen::V
              std::size_t count, std::mt19937_64& random) {
   std::uniform_real_distribution<double> unit(0, 1);
   for (std::size_t i = 0; i < count; ++i) {
-    Eigen::Vector3d share(unit(random), unit(random), unit(random));
+    Eigen::Vector3d share;
+    for (const int axis : {2, 1, 0})
+      share[axis] = unit(random);
     share[static_cast<Eigen::Index>(random() % 3)] = static_cast<double>(random() % 2);  // on a face
     cloud.points.emplace_back((low + share.cwiseProduct(high - low)).cast<float>());
     cloud.owner.push_back(owner);
