@@ -99,7 +99,10 @@ Model make_tree(SplitMix64& random) {
 
 Model make_bush(SplitMix64& random) {
   std::vector<Part> parts;
-  add_leaves(parts, random, random.uniform(0.6, 0.9), 0, random.uniform(1.1, 1.8));
+  const double top =
+      random.uniform(1.1, 1.8);  // one after another, since compilers order arguments differently
+  const double radius = random.uniform(0.6, 0.9);
+  add_leaves(parts, random, radius, 0, top);
   return assemble(SynthObjectKind::tree, std::move(parts));
 }
 
