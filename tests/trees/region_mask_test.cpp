@@ -13,88 +13,17 @@
 #include <random>
 
 #include "allocations.h"
-#include "any_volumes.h"
 #include "clouds.h"
 #include "executions.h"
 #include "flush_to_zero.h"
-#include "inflated.h"
 #include "pcl_bv/points/point_groups.h"
+#include "region_marks.h"
 #include "sources.h"
 
 namespace pcl_bv::detail {
 namespace {
 
 using namespace testing;
-using Marks = std::vector<std::uint8_t>;
-
-template <typename T>
-test::TestCloud<T> cloud_of(const std::vector<Vector3d>& points) {
-  test::TestCloud<T> cloud;
-  for (const Vector3d& p : points) {
-    for (const double c : p)
-      cloud.xyz.push_back(static_cast<T>(c));
-  }
-  return cloud;
-}
-
-Marks marks(const RegionMask& mask, const PointView& points, const Execution& execution = {}) {
-  Marks inside(points.count + 3, 7);
-  mask.mark(points, inside, execution);
-  return inside;
-}
-
-// One after another.
-Marks contained(const std::vector<Region>& regions, const PointView& points) {
-  Marks inside;
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const Coordinates p = load_point(points, i);
-    inside.push_back(is_valid(p) && std::any_of(regions.begin(), regions.end(), [&](const Region& region) {
-                       return contains(inflated(region.volume, region.padding), Vector3d(p.x, p.y, p.z));
-                     }));
-  }
-  return inside;
-}
-
-// Boxes, spheres, oriented boxes, cylinders and capsules, two of each and one of every other kind, padded.
-std::vector<Region> ten_and_more(Random& random, const Scale& scale) {
-  std::vector<Region> regions;
-  for (int i = 0; i < 2; ++i) {
-    for (const AnyVolume& volume : volumes_of_every_kind(random, scale))
-      regions.push_back({volume, 0.02 * scale.extent * static_cast<double>(regions.size() % 4)});
-  }
-  return regions;
-}
-
-template <typename T>
-void expect_contains() {
-  Random random(1);
-  for (const Scale& scale : scales()) {
-    std::size_t in = 0, all = 0;
-    for (const AnyVolume& volume : volumes_of_every_kind(random, scale)) {
-      for (const double part : {0.0, 1e-3, 0.5}) {
-        const double padding = part * scale.extent;
-        const auto cloud = cloud_of<T>(points_about(random, volume, padding, 40));
-        const Marks expected = contained({{volume, padding}}, cloud.view());
-        ASSERT_EQ(marks(RegionMask({{volume, padding}}), cloud.view()), expected)
-            << shape_name(volume) << ", " << scale.name << ", " << padding;
-        in += static_cast<std::size_t>(std::accumulate(expected.begin(), expected.end(), 0));
-        all += expected.size();
-      }
-    }
-    // Those of 1e99 are no floats, and those of 1e-100 are at 0.
-    if (sizeof(T) == 8 || (scale.extent > 1e-50 && scale.extent < 1e50)) {
-      EXPECT_GT(in, all / 10) << scale.name;
-      EXPECT_LT(in, all) << scale.name;
-    }
-  }
-}
-
-TEST(RegionMask, OfFloatsIsContainsOfTheGrownVolume) {
-  expect_contains<float>();
-}
-TEST(RegionMask, OfDoublesIsContainsOfTheGrownVolume) {
-  expect_contains<double>();
-}
 
 // Corners of the inflated volumes may be far beyond aabb() plus the padding.
 TEST(RegionMask, ExtentsHoldAllPointsInside) {
@@ -125,37 +54,6 @@ TEST(RegionMask, ExtentsHoldAllPointsInside) {
   }
   EXPECT_TRUE(RegionMask({}).extents().empty());
   EXPECT_TRUE(RegionMask({{Aabb(), 1}}).extents().empty());
-}
-
-TEST(RegionMask, OfManyRegionsIsTheirUnion) {
-  Random random(2);
-  for (const Scale& scale : {scales()[0], scales()[1], scales()[3], scales()[5]}) {
-    const std::vector<Region> regions = ten_and_more(random, scale);
-    std::vector<Vector3d> points;
-    for (const auto& [volume, padding] : regions) {
-      for (const Vector3d& p : points_about(random, volume, padding, 10))
-        points.push_back(p);
-    }
-    const RegionMask mask(regions);
-    const auto floats = cloud_of<float>(points);
-    const auto doubles = cloud_of<double>(points);
-    EXPECT_EQ(marks(mask, floats.view()), contained(regions, floats.view())) << scale.name;
-    EXPECT_EQ(marks(mask, doubles.view()), contained(regions, doubles.view())) << scale.name;
-    for (std::size_t i = 0; i < points.size(); i += 7)
-      ASSERT_EQ(mask.contains(points[i]), marks(mask, doubles.view().slice(i, 1))[0] == 1);
-  }
-}
-
-TEST(RegionMask, OfNastyCloudsIsContainsOfTheVolumes) {
-  Random random(3);
-  std::vector<Region> regions = ten_and_more(random, scales().front());
-  regions.push_back({Aabb({-1e30, -1e30, 1e10}, {1e30, 2e38, 1e39}), 1});
-  regions.push_back({Sphere({5e6, 5e6, 5e6}, 10), 0.5});
-  const RegionMask mask(regions);
-  for (const auto& cloud : test::nasty_clouds<float>())
-    EXPECT_EQ(marks(mask, cloud.view()), contained(regions, cloud.view())) << cloud.name;
-  for (const auto& cloud : test::nasty_clouds<double>())
-    EXPECT_EQ(marks(mask, cloud.view()), contained(regions, cloud.view())) << cloud.name;
 }
 
 TEST(RegionMask, IsTheSameOnEveryInstructionSetAndAnyNumberOfThreads) {
@@ -248,24 +146,6 @@ TEST(RegionMask, OfNoRegionsOrEmptyOnesMarksNothing) {
     EXPECT_EQ(marks(mask, cloud.view()), Marks(1000, 0));
     EXPECT_EQ(marks(mask, PointView()), Marks());
     EXPECT_FALSE(mask.contains({0, 0, 0}));
-  }
-}
-
-// A k-DOP whose slabs have no point in common is not empty(), and a plane may have any normal.
-TEST(RegionMask, AsksContainsOfVolumesThatAreNone) {
-  const auto set = KdopSet::dop14();
-  SlabVector min = SlabVector::Constant(7, -1), max = SlabVector::Constant(7, 1);
-  min[3] = 5, max[3] = 6;
-  const Hull half({{0, 0, 0}}, {}, {{Vector3d(0.1, 0.2, 0.3), 0.5}}, 0);
-  const Hull all({{0, 0, 0}}, {}, {{Vector3d::Zero(), 0}}, 0),
-      none({{0, 0, 0}}, {}, {{Vector3d::Zero(), -1}}, 0);
-  const auto cloud = test::gaussian<double>(2000, 8, 3);
-  for (const AnyVolume& volume :
-       {AnyVolume(Kdop(set, min, max)), AnyVolume(half), AnyVolume(all), AnyVolume(none)}) {
-    for (const double padding : {0.0, 0.5, 2.0}) {
-      const std::vector<Region> regions = {{volume, padding}};
-      EXPECT_EQ(marks(RegionMask(regions), cloud.view()), contained(regions, cloud.view())) << padding;
-    }
   }
 }
 
