@@ -41,11 +41,15 @@ macro(pcl_bv_enable_c)
   set(CMAKE_PCH_EXTENSION ${precompiled_extension})
 endmacro()
 
-# pcl_bv_unity(target): with PCL_BV_UNITY, twelve of its sources at a time are one: most of what each would cost is the
-# parsing of Eigen. All at once would leave the other processors idle.
+# pcl_bv_unity(target [COUNT count]): with PCL_BV_UNITY, `count` (12) of its sources at a time are one: most of what each
+# would cost is the parsing of Eigen. All at once would leave the other processors idle.
 function(pcl_bv_unity target)
+  cmake_parse_arguments(arg "" "COUNT" "" ${ARGN})
+  if(NOT arg_COUNT)
+    set(arg_COUNT 12)
+  endif()
   if(PCL_BV_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${arg_COUNT})
     # g++ takes an included source for a header, where members of types in an anonymous namespace would be a mistake.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
@@ -99,16 +103,20 @@ function(pcl_bv_library name)
   endif()
 endfunction()
 
-# pcl_bv_test(name SOURCES ... LINK ... [ISA | SETS] [SERIAL]): a GoogleTest program. With SERIAL, no test starts a thread,
-# so ThreadSanitizer leaves the program out. Labels of its tests:
+# pcl_bv_test(name SOURCES ... LINK ... [ISA | SETS] [SERIAL] [ALONE ...]): a GoogleTest program. With SERIAL, no test
+# starts a thread, so ThreadSanitizer leaves the program out. ALONE: sources whose names mean something else in others,
+# so that they are compiled on their own whatever PCL_BV_UNITY says. Labels of its tests:
 #   isa       run on the instruction set that PCL_BV_ISA names; `./bootstrap test` repeats them with each of the machine
 #   sets      try every set of the processor themselves: programs with SETS, and of those with ISA the tests whose name
 #             says EveryInstructionSet
 #   portable  no instruction set can change them
 function(pcl_bv_test name)
-  cmake_parse_arguments(arg "ISA;SETS;SERIAL" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(arg "ISA;SETS;SERIAL" "" "SOURCES;LINK;ALONE" ${ARGN})
   set(target test_${name})
-  add_executable(${target} ${arg_SOURCES})
+  add_executable(${target} ${arg_SOURCES} ${arg_ALONE})
+  # g++ would warn of new and delete that do not match where it inlines one of allocations.cpp, but not the other.
+  set_source_files_properties(${arg_ALONE} ../support/allocations.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  pcl_bv_unity(${target} COUNT 4)
   if(arg_SERIAL AND PCL_BV_SANITIZE STREQUAL "thread")
     set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
     return()
