@@ -53,7 +53,7 @@ template <class OnLine>
 void each_line(std::string_view text, const OnLine& on_line) {
   while (!text.empty()) {
     const std::string_view line = text.substr(0, text.find('\n'));
-    text.remove_prefix(line.size() + 1);
+    text.remove_prefix(std::min(line.size() + 1, text.size()));  // the last line may end without '\n'
     const std::size_t space = line.find(' ');
     on_line(line.substr(0, space), line.substr(space));
   }
