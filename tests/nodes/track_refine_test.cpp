@@ -93,8 +93,8 @@ TEST(TrackCut, LeavesAPersonOfAFewPointsInTheCluster) {
   EXPECT_LT(cut(scene, {object_at(scene.car), object_at(scene.person)}, part_of), 2U);
 }
 
-std::vector<Piece> pieces_of(const std::vector<Box>& boxes) {
-  std::vector<Piece> pieces;
+std::vector<ClusterPart> pieces_of(const std::vector<Box>& boxes) {
+  std::vector<ClusterPart> pieces;
   for (const Box& box : boxes)
     pieces.push_back({0, 10, pieces.size(), Refinement::none, box});
   return pieces;
@@ -107,7 +107,7 @@ const Box kCar = box_at(20, 0, 4.4, 1.8, 1.5), kFront = box_at(21.7, 0, 1, 1.7, 
 TEST(PartJoin, JoinsThePartsOfAKnownCar) {
   PartJoin join;
   std::vector<std::size_t> whole_of;
-  const std::vector<Piece> pieces = pieces_of({box_at(50, 0, 1, 1, 1), kFront, kBack});
+  const std::vector<ClusterPart> pieces = pieces_of({box_at(50, 0, 1, 1, 1), kFront, kBack});
   EXPECT_EQ(join.find(pieces, {}, {}, whole_of), 0U);
   EXPECT_EQ(join.find(pieces, {object_at(kCar)}, {}, whole_of), 1U);
   EXPECT_EQ(whole_of, (std::vector<std::size_t>{PartJoin::none, PartJoin::none, 1}));
@@ -116,7 +116,7 @@ TEST(PartJoin, JoinsThePartsOfAKnownCar) {
 TEST(PartJoin, TheLargestOfNestedTracksGetsTheParts) {
   PartJoin join;
   std::vector<std::size_t> whole_of;
-  const std::vector<Piece> pieces =
+  const std::vector<ClusterPart> pieces =
       pieces_of({kFront, box_at(18.1, 0, 0.5, 1.7, 0.5), box_at(18.9, 0, 0.5, 1.7, 1.4)});
   std::vector<KnownObject> known{object_at(box_at(18.5, 0, 1.6, 1.8, 1.5)), object_at(kCar)};
   EXPECT_EQ(join.find(pieces, known, {}, whole_of), 1U);
@@ -134,7 +134,7 @@ TEST(PartJoin, LeavesPeopleOtherClassesPartsThatWereCutAndLargeObjectsApart) {
   EXPECT_EQ(join.find(pieces_of({kFront, kPerson}), {object_at(kCar)}, {}, whole_of), 1U);  // not known
   EXPECT_EQ(join.find(pieces_of({kFront, kBack}), {object_at(kCar)}, {1, 2}, whole_of), 0U);
   EXPECT_EQ(join.find(pieces_of({kFront, kBack}), {object_at(kCar)}, {2, 2}, whole_of), 1U);
-  std::vector<Piece> pieces = pieces_of({kFront, kBack});
+  std::vector<ClusterPart> pieces = pieces_of({kFront, kBack});
   pieces[1].refinement = Refinement::cut;
   EXPECT_EQ(join.find(pieces, {object_at(kCar)}, {}, whole_of), 0U);
   EXPECT_EQ(join.find(pieces_of({kFront, kBack}), {object_at(box_at(20, 0, 8, 1.8, 1.5))}, {}, whole_of), 0U);

@@ -94,7 +94,7 @@ void ClusterRefiner::join() {
   for (std::size_t m = 0; m < members_.size();) {
     const std::size_t whole = members_[m].first, begin = indices_.size();
     for (; m < members_.size() && members_[m].first == whole; ++m) {
-      Piece& part = pieces_[members_[m].second];
+      ClusterPart& part = pieces_[members_[m].second];
       for (std::size_t i = 0; i < part.size; ++i)
         indices_.push_back(indices_[part.begin + i]);
       part.size = 0;
@@ -104,12 +104,12 @@ void ClusterRefiner::join() {
     pieces_[whole].size = indices_.size() - begin;
     pieces_[whole].refinement = Refinement::joined;
   }
-  std::erase_if(pieces_, [](const Piece& piece) { return piece.size == 0; });
+  std::erase_if(pieces_, [](const ClusterPart& piece) { return piece.size == 0; });
 }
 
 void ClusterRefiner::replace(Clusters& clusters, std::vector<std::int64_t>& class_of,
                              std::vector<Refinement>& refinements) {
-  std::sort(pieces_.begin(), pieces_.end(), [&](const Piece& a, const Piece& b) {
+  std::sort(pieces_.begin(), pieces_.end(), [&](const ClusterPart& a, const ClusterPart& b) {
     return a.size != b.size ? a.size > b.size : indices_[a.begin] < indices_[b.begin];
   });
   clusters.indices.clear();
@@ -117,7 +117,7 @@ void ClusterRefiner::replace(Clusters& clusters, std::vector<std::int64_t>& clas
   classes_ = class_of;
   class_of.clear();
   refinements.clear();
-  for (const Piece& piece : pieces_) {
+  for (const ClusterPart& piece : pieces_) {
     const auto begin = indices_.begin() + static_cast<std::ptrdiff_t>(piece.begin);
     clusters.indices.insert(clusters.indices.end(), begin, begin + static_cast<std::ptrdiff_t>(piece.size));
     clusters.offsets.push_back(clusters.indices.size());

@@ -78,7 +78,7 @@ class ClusterRefiner {
   std::vector<Eigen::AlignedBox3d> boxes_;  // of each cluster, in the fixed frame
   std::vector<std::uint32_t> part_of_;      // of each point of clusters that are cut, as in Clusters::indices
   std::vector<std::int32_t> indices_;
-  std::vector<Piece> pieces_;
+  std::vector<ClusterPart> pieces_;
   std::vector<std::size_t> whole_of_;
   std::vector<std::pair<std::size_t, std::size_t>> members_;  // a joined piece and one of its parts
   std::vector<std::int64_t> classes_;

@@ -29,7 +29,7 @@ double plan_area(const KnownObject& object) {
   return object.box.sizes().head<2>().prod();
 }
 
-bool is_tracked_person(const Piece& piece, const std::vector<KnownObject>& known) {
+bool is_tracked_person(const ClusterPart& piece, const std::vector<KnownObject>& known) {
   if (plan_width(piece.box) > kPersonWidth || piece.box.sizes().z() < kPersonHeight) return false;
   const double x = piece.box.center().x();
   const auto [first, last] = objects_between(known, x - kPersonShift, x + kPersonShift);
@@ -41,7 +41,7 @@ bool is_tracked_person(const Piece& piece, const std::vector<KnownObject>& known
 
 }  // namespace
 
-bool PartJoin::is_part(const Piece& piece, const KnownObject& vehicle,
+bool PartJoin::is_part(const ClusterPart& piece, const KnownObject& vehicle,
                        const std::vector<KnownObject>& known) const {
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(kPartMargin);
   const Eigen::AlignedBox3d reach(vehicle.box.min() - margin, vehicle.box.max() + margin);
@@ -50,7 +50,7 @@ bool PartJoin::is_part(const Piece& piece, const KnownObject& vehicle,
 }
 
 // Sorts the pieces that may be parts.
-void PartJoin::sort_by_x(const std::vector<Piece>& pieces) {
+void PartJoin::sort_by_x(const std::vector<ClusterPart>& pieces) {
   taken_.assign(pieces.size(), 0);
   by_x_.clear();
   for (std::size_t i = 0; i < pieces.size(); ++i)
@@ -58,7 +58,7 @@ void PartJoin::sort_by_x(const std::vector<Piece>& pieces) {
   std::sort(by_x_.begin(), by_x_.end());
 }
 
-void PartJoin::find_parts(const std::vector<Piece>& pieces, const KnownObject& vehicle,
+void PartJoin::find_parts(const std::vector<ClusterPart>& pieces, const KnownObject& vehicle,
                           const std::vector<KnownObject>& known) {
   parts_.clear();
   auto at =
@@ -67,7 +67,7 @@ void PartJoin::find_parts(const std::vector<Piece>& pieces, const KnownObject& v
     if (taken_[at->second] == 0 && is_part(pieces[at->second], vehicle, known)) parts_.push_back(at->second);
 }
 
-std::size_t PartJoin::find(const std::vector<Piece>& pieces, const std::vector<KnownObject>& known,
+std::size_t PartJoin::find(const std::vector<ClusterPart>& pieces, const std::vector<KnownObject>& known,
                            const std::vector<std::int64_t>& class_of, std::vector<std::size_t>& whole_of) {
   // More than this frame needs: a replay has more tracks, and cuts more clusters, than the first pass.
   for (auto* const numbers : {&whole_of, &parts_})

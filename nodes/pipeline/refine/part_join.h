@@ -17,7 +17,7 @@ namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
 
 /// A cluster, or a part of a cluster that was cut.
-struct Piece {
+struct ClusterPart {
   std::size_t begin = 0, size = 0;  ///< Range in the list of indices.
   std::size_t cluster = 0;          ///< Number of the cluster before all cuts.
   Refinement refinement = Refinement::none;
@@ -35,14 +35,15 @@ class PartJoin {
   /// Replaces `whole_of` by the number of the piece that each piece is joined to: `none`, or a smaller
   /// number. `class_of` is the class of each cluster, or is empty; pieces of different classes are not
   /// joined. Returns the number of joined objects. `known` is sorted by the x of the centres.
-  std::size_t find(const std::vector<Piece>& pieces, const std::vector<KnownObject>& known,
+  std::size_t find(const std::vector<ClusterPart>& pieces, const std::vector<KnownObject>& known,
                    const std::vector<std::int64_t>& class_of, std::vector<std::size_t>& whole_of);
 
  private:
-  bool is_part(const Piece& piece, const KnownObject& vehicle, const std::vector<KnownObject>& known) const;
+  bool is_part(const ClusterPart& piece, const KnownObject& vehicle,
+               const std::vector<KnownObject>& known) const;
 
-  void sort_by_x(const std::vector<Piece>& pieces);
-  void find_parts(const std::vector<Piece>& pieces, const KnownObject& vehicle,
+  void sort_by_x(const std::vector<ClusterPart>& pieces);
+  void find_parts(const std::vector<ClusterPart>& pieces, const KnownObject& vehicle,
                   const std::vector<KnownObject>& known);
 
   std::vector<const KnownObject*> vehicles_;
