@@ -43,7 +43,7 @@ TEST(Motion, APointIsAtMostItsErrorFromItsExactImage) {
   for (int i = 0; i < 500; ++i) {
     const Eigen::Isometry3d transform = random.isometry(10);
     const Vector3d p = random.vector(3);
-    const TransformedPoint moved = transform_point(transform, p);
+    const PointWithError moved = transform_point(transform, p);
     ExactPoint difference = image(transform, exact(p));
     for (std::size_t k = 0; k < 3; ++k)
       difference[k] -= exact(moved.point)[k];

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "gjk.h"
-#include "half_spaces.h"
+#include "half_space_body.h"
 #include "pair_volumes.h"
 
 namespace pcl_bv::detail {
@@ -136,7 +136,7 @@ std::vector<ExactPoint> corners_of(const std::vector<HullPlane>& planes) {
 TEST(PairBounds, OfHalfSpacesAreThoseOfTheirCorners) {
   Random random(kSeed);
   for (const double width : {1.0, 1e-3, 1e-5}) {
-    detail::HalfSpaces half_spaces;
+    detail::HalfSpaceBody half_spaces;
     std::vector<HullPlane> planes;  // tangent to the unit ball
     for (int i = 0; i < 18; ++i) {
       const Vector3d axis = (i < 3 ? 1 : -1) * Vector3d::Unit(i % 3);
@@ -165,7 +165,7 @@ TEST(PairBounds, OfHalfSpacesAreThoseOfTheirCorners) {
 TEST(PairBounds, TheBoxAroundHalfSpacesIsTightWhateverIsGuessed) {
   for (const Vector3d& half : {Vector3d(1, 1, 1), Vector3d(1, 0.25, 4), Vector3d(1e-6, 1, 1e-3)}) {
     for (const double guess : {1.001, 8.0, 1e6}) {
-      detail::HalfSpaces half_spaces;
+      detail::HalfSpaceBody half_spaces;
       for (int signs = 0; signs < 8; ++signs) {
         const Vector3d n(signs & 1 ? 1 : -1, signs & 2 ? 1 : -1, signs & 4 ? 1 : -1);
         half_spaces.add(n.cwiseQuotient(half), 1, Vector3d::Zero());
@@ -184,7 +184,7 @@ TEST(PairBounds, TheBoxAroundHalfSpacesIsTightWhateverIsGuessed) {
 
 TEST(PairBounds, NoBoxIsFoundAroundHalfSpacesThatLeaveOneSideOpen) {
   for (int open = 0; open < 6; ++open) {
-    detail::HalfSpaces half_spaces;
+    detail::HalfSpaceBody half_spaces;
     for (int side = 0; side < 6; ++side) {
       if (side != open) half_spaces.add((side < 3 ? 1 : -1) * Vector3d::Unit(side % 3), 1, Vector3d::Zero());
     }

@@ -92,7 +92,7 @@ double matrix_norm_up(const Eigen::Matrix3d& m) {
   return sqrt_up(result);
 }
 
-TransformedPoint transform_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d& p) {
+PointWithError transform_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d& p) {
   const Eigen::Vector3d moved = transform * p;
   Eigen::Vector3d error;
   for (int i = 0; i < 3; ++i) {

@@ -32,11 +32,11 @@ double orthonormality_error(const Eigen::Matrix3d& axes);
 double matrix_norm_up(const Eigen::Matrix3d& m);
 
 /// A transformed point, rounded, and an upper bound of its distance from the exact transformed point.
-struct TransformedPoint {
+struct PointWithError {
   Eigen::Vector3d point;
   double error;
 };
-TransformedPoint transform_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d& p);
+PointWithError transform_point(const Eigen::Isometry3d& transform, const Eigen::Vector3d& p);
 
 /// Returns a proven upper bound of |m v - factor w|.
 double difference_up(const Eigen::Matrix3d& m, const Eigen::Vector3d& v, double factor,

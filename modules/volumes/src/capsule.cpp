@@ -140,7 +140,7 @@ Mesh Capsule::mesh() const {
 Capsule Capsule::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};
-  const TransformedPoint a = transform_point(transform, a_), b = transform_point(transform, b_);
+  const PointWithError a = transform_point(transform, a_), b = transform_point(transform, b_);
   const double radius =
       add_up(multiply_up(radius_, matrix_norm_up(transform.linear())), std::max(a.error, b.error));
   return {a.point, b.point, radius};

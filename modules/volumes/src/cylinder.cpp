@@ -172,7 +172,7 @@ Cylinder Cylinder::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};
   const Eigen::Matrix3d m = transform.linear();
-  const TransformedPoint center = transform_point(transform, center_);
+  const PointWithError center = transform_point(transform, center_);
   const Eigen::Vector3d rotated = m * axis_;
   const Eigen::Vector3d axis = unit_axis(rotated);
   const double length = rotated.stableNorm();

@@ -117,7 +117,7 @@ Ellipsoid Ellipsoid::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};
   const Eigen::Matrix3d m = transform.linear();
-  const TransformedPoint center = transform_point(transform, center_);
+  const PointWithError center = transform_point(transform, center_);
   const double largest = radii_.maxCoeff();
   Eigen::Matrix3d axes;
   axes.col(0) = (m * axes_.col(0)).stableNormalized();

@@ -217,7 +217,7 @@ Obb Obb::transformed(const Eigen::Isometry3d& transform) const {
   if (empty()) return {};
   const Eigen::Matrix3d m = transform.linear();
   const Eigen::Matrix3d axes = orthonormal_axes(m * axes_);
-  const TransformedPoint center = transform_point(transform, center_);
+  const PointWithError center = transform_point(transform, center_);
   Eigen::Vector3d half_extents;
   for (int i = 0; i < 3; ++i) {
     Eigen::Vector3d w, rounding;

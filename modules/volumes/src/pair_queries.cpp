@@ -66,7 +66,7 @@ ConvexBody ConvexBody::transformed(const Eigen::Isometry3d& transform) const {
   if (empty()) return *this;
   ConvexBody result = *this;
   const Eigen::Matrix3d m = transform.linear();
-  const TransformedPoint origin = transform_point(transform, origin_);
+  const PointWithError origin = transform_point(transform, origin_);
   const double stretch = matrix_norm_up(m);
   double lost = origin.error;
   result.rotation_ = m;

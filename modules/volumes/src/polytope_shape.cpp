@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bounds.h"
-#include "half_spaces.h"
+#include "half_space_body.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/expansion.h"
@@ -64,7 +64,7 @@ class PolytopeShape : public SupportShape {
 
   void add_box() { size = half_spaces_.add_box(guess_) ? half_spaces_.radius_up() : kInfinity; }
 
-  HalfSpaces half_spaces_;
+  HalfSpaceBody half_spaces_;
 
  private:
   std::vector<double> x_, y_, z_;

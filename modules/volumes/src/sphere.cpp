@@ -162,7 +162,7 @@ Aabb Sphere::aabb() const {
 Sphere Sphere::transformed(const Eigen::Isometry3d& transform) const {
   const FloatEnvironment environment;
   if (empty()) return {};
-  const TransformedPoint center = transform_point(transform, center_);
+  const PointWithError center = transform_point(transform, center_);
   return {center.point, add_up(multiply_up(radius_, matrix_norm_up(transform.linear())), center.error)};
 }
 

@@ -15,7 +15,7 @@ namespace pcl_bv::detail {
 /// A body given by half-spaces n . q <= offset, where q is relative to a nearby origin. After add_box(), the
 /// last six half-spaces are an axis-aligned box around the body, in the order q_k <= offset for k = 0, 1, 2,
 /// then -q_k <= offset. Normals are multiplied by powers of two, so that their length is about 1.
-class HalfSpaces {
+class HalfSpaceBody {
  public:
   static constexpr std::size_t box_sides = 6;
 

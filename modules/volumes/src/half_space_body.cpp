@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "half_spaces.h"
+#include "half_space_body.h"
 
 #include <algorithm>
 #include <array>
@@ -15,12 +15,12 @@
 
 namespace pcl_bv::detail {
 
-void HalfSpaces::reserve(std::size_t count) {
+void HalfSpaceBody::reserve(std::size_t count) {
   normals_.reserve(count + box_sides);
   offsets_.reserve(count + box_sides);
 }
 
-void HalfSpaces::add(const Eigen::Vector3d& normal, double offset, const Eigen::Vector3d& origin) {
+void HalfSpaceBody::add(const Eigen::Vector3d& normal, double offset, const Eigen::Vector3d& origin) {
   if (normal.isZero(0)) return;
   double unit = power_of_two(normal);
   if (Eigen::Vector3d(normal / unit) * unit != normal) unit = 1;  // else a component underflows
@@ -34,7 +34,7 @@ void HalfSpaces::add(const Eigen::Vector3d& normal, double offset, const Eigen::
 // < 1 for all six directions +-e_k, the body is bounded. Proof: a vector v in the body's recession cone whose
 // largest component is v_k = +-1 would satisfy 1 = +-e_k . v = sum w_i n_i . v + r . v <= |r|_1 < 1, a
 // contradiction. Therefore, |q|_inf has a maximum R over the body, and R <= largest_bound + |r|_1 R.
-bool HalfSpaces::add_box(double guess) {
+bool HalfSpaceBody::add_box(double guess) {
   const std::size_t usable = size();
   for (int side = 0; side < 6; ++side) {
     normals_.push_back((side < 3 ? 1 : -1) * Eigen::Vector3d::Unit(side % 3));
@@ -61,14 +61,14 @@ bool HalfSpaces::add_box(double guess) {
   return true;
 }
 
-double HalfSpaces::radius_up() const {
+double HalfSpaceBody::radius_up() const {
   return norm_up(max_abs_);
 }
 
 // Uses only half-spaces with an index below `usable`. The sums are off by at most 4.01 U of their terms,
 // where U = 2^-53. The error bound of 8 U also covers the rounding when the error bound is added.
-HalfSpaces::DualBound HalfSpaces::prove(const DualBasis& basis, const Eigen::Vector3d& direction,
-                                        std::size_t usable) const {
+HalfSpaceBody::DualBound HalfSpaceBody::prove(const DualBasis& basis, const Eigen::Vector3d& direction,
+                                              std::size_t usable) const {
   Eigen::Vector3d rest = direction, terms = direction.cwiseAbs();
   double sum = 0, magnitude = 0;
   for (int k = 0; k < 3; ++k) {
@@ -84,7 +84,7 @@ HalfSpaces::DualBound HalfSpaces::prove(const DualBasis& basis, const Eigen::Vec
   return {sum + (0x1p-50 * magnitude + kSmallestNormal), rest.cwiseAbs() + 0x1p-50 * terms};
 }
 
-double HalfSpaces::bound(const DualBasis& basis, const Eigen::Vector3d& direction) const {
+double HalfSpaceBody::bound(const DualBasis& basis, const Eigen::Vector3d& direction) const {
   const auto [dual_bound, residual] = prove(basis, direction, size());
   const double rest = dot3(residual, max_abs_) * (1 + 0x1p-50) + kSmallestNormal;
   return dual_bound + rest + 0x1p-51 * (std::abs(dual_bound) + rest);
@@ -92,7 +92,8 @@ double HalfSpaces::bound(const DualBasis& basis, const Eigen::Vector3d& directio
 
 // First uses only the half-spaces at the vertex and those of the box. They usually suffice. If rounding hides
 // a short edge at the vertex, uses all half-spaces.
-double HalfSpaces::support_value_up(const Eigen::Vector3d& direction, const Eigen::Vector3d& vertex) const {
+double HalfSpaceBody::support_value_up(const Eigen::Vector3d& direction,
+                                       const Eigen::Vector3d& vertex) const {
   const double extent = std::max({max_abs_[0], max_abs_[1], max_abs_[2]});
   std::vector<double> slack(size());
   for (std::size_t i = 0; i < slack.size(); ++i)
