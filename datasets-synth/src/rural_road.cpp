@@ -144,9 +144,9 @@ struct Sweep {
   std::uint64_t seed, frame;
 
   void record(const Ray& ray, SynthCloud& cloud, std::size_t i,
-              const std::vector<Candidate>& candidates) const {
+              const std::vector<ColumnCandidate>& candidates) const {
     Hit hit;
-    for (const Candidate& candidate : candidates) {
+    for (const ColumnCandidate& candidate : candidates) {
       if (candidate.min_range >= hit.range) break;
       cast(ray, *candidate.object, hit);
     }

@@ -78,7 +78,7 @@ StreetFrame make_street_frame(const StreetOptions& options, std::size_t frame) {
     const auto [x, y, z] = street_beam(step * static_cast<double>(row), i % columns, columns);
     const Ray ray{{x, y, z}, SplitMix64({options.seed, frame, i}).next()};
     Hit hit;
-    for (const Candidate& candidate : candidates[i % columns]) {
+    for (const ColumnCandidate& candidate : candidates[i % columns]) {
       if (candidate.min_range >= hit.range) break;
       cast(ray, *candidate.object, hit);
     }

@@ -15,7 +15,7 @@ namespace {
 /// the largest azimuth of the corners of the object's box. The azimuths are measured from the azimuth of the
 /// box's middle, from -pi to pi. If the sensor is inside the object's footprint, such as below a bridge, all
 /// columns are added.
-void add_candidate(std::vector<std::vector<Candidate>>& columns, const PlacedObject& object) {
+void add_candidate(std::vector<std::vector<ColumnCandidate>>& columns, const PlacedObject& object) {
   const double nearest = min_range(object);
   if (nearest == 0) {
     for (auto& column : columns)
@@ -53,14 +53,14 @@ double azimuth_of(double column, std::size_t columns) {
   return std::numbers::pi * (1 - 2 * (column + 0.5) / static_cast<double>(columns));
 }
 
-std::vector<std::vector<Candidate>> candidates_by_column(const std::vector<PlacedObject>& objects,
-                                                         std::size_t columns) {
-  std::vector<std::vector<Candidate>> candidates(columns);
+std::vector<std::vector<ColumnCandidate>> candidates_by_column(const std::vector<PlacedObject>& objects,
+                                                               std::size_t columns) {
+  std::vector<std::vector<ColumnCandidate>> candidates(columns);
   for (const PlacedObject& object : objects)
     add_candidate(candidates, object);
   for (auto& column : candidates) {
     std::sort(column.begin(), column.end(),
-              [](const Candidate& a, const Candidate& b) { return a.min_range < b.min_range; });
+              [](const ColumnCandidate& a, const ColumnCandidate& b) { return a.min_range < b.min_range; });
   }
   return candidates;
 }

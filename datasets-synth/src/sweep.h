@@ -15,14 +15,14 @@ namespace pcl_bv::detail {
 /// is clockwise as seen from above.
 double azimuth_of(double column, std::size_t columns);
 
-struct Candidate {
+struct ColumnCandidate {
   double min_range;  ///< Lower bound on the range of the object's returns, metres.
   const PlacedObject* object;
 };
 
 /// Returns for each column the objects that the rays of the column may hit, nearest first. The result points
 /// into `objects`.
-std::vector<std::vector<Candidate>> candidates_by_column(const std::vector<PlacedObject>& objects,
-                                                         std::size_t columns);
+std::vector<std::vector<ColumnCandidate>> candidates_by_column(const std::vector<PlacedObject>& objects,
+                                                               std::size_t columns);
 
 }  // namespace pcl_bv::detail
