@@ -7,31 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "few_cases.h"
 #include "pcl_bv/parallel/execution.h"
 
 namespace pcl_bv::test {
-
-// qemu runs tests about 17 times slower. There they use one number of threads, and clouds just large enough.
-#if defined(PCL_BV_EMULATED)
-inline constexpr bool kEmulated = true;
-#else
-inline constexpr bool kEmulated = false;
-#endif
-
-// Sanitizers run tests 3 to 10 times slower. They look for wrong use of memory and threads, not for wrong numbers, so
-// tests of many random cases have fewer there and under qemu.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool kFewCases = true;
-#else
-inline constexpr bool kFewCases = kEmulated;
-#endif
 
 /// Points whose 26-DOP every set takes 200 us for, from where on it is threaded. Arm's sets are reckoned
 /// slower.
 inline constexpr std::size_t kThreadedPoints = kEmulated ? 200'000 : 1'100'000;
 
 inline std::vector<unsigned> thread_counts() {
-  return kEmulated ? std::vector{3U} : std::vector{2U, 3U, 5U};
+  return kFewCases ? std::vector{3U} : std::vector{2U, 3U, 5U};
 }
 
 struct NamedExecution {

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <string>
 
+#include "few_cases.h"
 #include "region_marks.h"
 
 namespace pcl_bv::detail {
@@ -30,7 +31,7 @@ void expect_contains() {
     for (const AnyVolume& volume : volumes_of_every_kind(random, scale)) {
       for (const double part : {0.0, 1e-3, 0.5}) {
         const double padding = part * scale.extent;
-        const auto cloud = cloud_of<T>(points_about(random, volume, padding, 40));
+        const auto cloud = cloud_of<T>(points_about(random, volume, padding, test::kFewCases ? 5 : 40));
         const RegionMask mask({{volume, padding}});
         const Marks expected = contained({{volume, padding}}, cloud.view());
         for (const Isa isa : usable_isas()) {
@@ -79,6 +80,7 @@ TEST(RegionMask, OfManyRegionsIsTheirUnion) {
 TEST(RegionMask, OfNastyCloudsIsContainsOfTheVolumes) {
   Random random(3);
   std::vector<Region> regions = ten_and_more(random, scales().front());
+  if (test::kFewCases) regions.erase(regions.begin() + 8, regions.end());
   regions.push_back({Aabb({-1e30, -1e30, 1e10}, {1e30, 2e38, 1e39}), 1});
   regions.push_back({Sphere({5e6, 5e6, 5e6}, 10), 0.5});
   for (const auto& cloud : test::nasty_clouds<float>())
