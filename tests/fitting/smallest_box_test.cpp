@@ -15,6 +15,7 @@
 
 #include "executions.h"
 #include "fits.h"
+#include "numbers.h"
 #include "obbs.h"
 #include "pcl_bv/fitting/fit.h"
 
@@ -29,10 +30,15 @@ using Long = Eigen::Matrix<long double, 3, 1>;
 
 constexpr double kAbove = 1 + 1e-9;
 
+// Of the default set; the box of every other has the same bits.
 EstimationResult fit_smallest(const Points& points, Obb& box) {
-  return take(
-      fit_obb(PointView::of(points.front().data(), sizeof(Vector3d), points.size()), ObbMethod::minimal),
-      box);
+  const PointView view = PointView::of(points.front().data(), sizeof(Vector3d), points.size());
+  const EstimationResult result = take(fit_obb(view, ObbMethod::minimal), box);
+  for (const Isa isa : usable_isas()) {
+    const Obb other = *fit_obb(view, ObbMethod::minimal, {Serial{}, isa});
+    EXPECT_EQ(bits(AnyVolume(other)), bits(AnyVolume(box))) << isa_name(isa);
+  }
+  return result;
 }
 
 double least_volume(const Points& points) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The mask is contains() of the grown volumes, point by point, however it is run.
+// The mask is the same however it is run; where it ends, and what it refuses.
 
 #include "pcl_bv/trees/region_mask.h"
 
