@@ -51,8 +51,8 @@ def misses(results, all_targets):
 
 
 def inline(results, what, name):
-    """A figure in running text: {{ms ROW}}, {{least ROW}} (repetition), {{speed ROW}}; of rows in turns
-    {{ratio ROW}}, {{minima ROW}} (their ratio), {{first ROW}}, {{second ROW}}; any other word is a counter.
+    """A figure in running text: {{ms ROW}}, {{least ROW}} (repetition), {{speed ROW}}; of rows that
+    ran alternately {{ratio ROW}}, {{percent ROW}}, {{minima ROW}} (their ratio), {{first ROW}}, {{second ROW}}; any other word is a counter.
     """
     row = results.rows.get(name)
     if row is None:
@@ -62,6 +62,7 @@ def inline(results, what, name):
         "least": lambda: duration(row["us"][-1]),
         "speed": lambda: f"{number(results.speed(name))} Mpt/s",
         "ratio": lambda: number(row["ratio"]),
+        "percent": lambda: f"{100 * row['ratio']:.0f} %",
         "minima": lambda: number(results.ratio(name)[1]),
         "first": lambda: duration(row["first_us"]),
         "second": lambda: duration(row["second_us"]),
@@ -135,7 +136,7 @@ def pace(results):
     rows = [
         ("one thread", f"pipeline/paced-1-thread/{source}"),
         ("two threads", f"pipeline/paced-2-thread/{source}"),
-        ("PCL: RANSAC plane, `EuclideanClusterExtraction`, moments of inertia, no tracks", f"pipeline/pcl/{source}"),
+        ("PCL: RANSAC plane, `EuclideanClusterExtraction`, moments of inertia; no tracks, no pauses", f"pipeline/pcl/{source}"),
     ]
     measured = [(what, results.rows[name]) for what, name in rows if name in results.rows]
     cloud = "recorded sweeps of 64 beams" if source == "sweeps" else "generated sweeps of 64 beams"

@@ -98,7 +98,7 @@ def in_turns(results, pattern, sides, name_of=lambda n: n, peer=True):
             + ([outside(row)] if peer else [])
         )
     return table(
-        ["in turns", *sides, "ratio: median of pairs (of minima)"] + (["outside"] if peer else []), lines
+        ["alternately", *sides, "ratio: median of pairs (of minima)"] + (["outside"] if peer else []), lines
     )
 
 
@@ -107,7 +107,7 @@ def cluster_peers(results):
         peer, scene, n, r = name.removeprefix("over-").split("/")
         return f"{peer}: {scene}, {count(points_of(n))} points, {r[2:]} m"
 
-    return in_turns(results, "over-(pcl|nanoflann)/", ("peer, ms", "ours, ms"), say, False)
+    return in_turns(results, "over-(pcl|nanoflann)/", ("peer, ms", "pcl_bv, ms"), say, False)
 
 
 def cluster_threads(results):
@@ -129,18 +129,18 @@ def ground(results):
 
 
 def oriented(results):
-    """ms and volume over the least known, by method and cloud."""
+    """ms and volume over the smallest known, by method and cloud."""
     clouds = dict.fromkeys(n.split("/")[2] for n in results.matching("obb-min/"))
     methods = ("obb-pca", "obb-dito14", "obb-yaw", "obb-lshape", "obb-min")
     lines = []
     for cloud in clouds:
         rows = [results.rows[f"{m}/{results.best}/{cloud}"] for m in methods]
         lines.append([cloud] + [f"{number(r['us'][0] / 1e3)} ({r['over_least']:.3f})" for r in rows])
-    return table(["ms (volume over the least known)", *methods], lines)
+    return table(["ms (volume over the smallest known)", *methods], lines)
 
 
 def oriented_peers(results):
-    return in_turns(results, "turns/", ("peer, ms", "ours, ms"), lambda n: n.removeprefix("turns/"))
+    return in_turns(results, "turns/", ("peer, ms", "pcl_bv, ms"), lambda n: n.removeprefix("turns/"))
 
 
 def hulls(results):
@@ -199,7 +199,7 @@ def files(results):
             + [f"{number(ratio)} ({number(of_minima)})", number(row["first_mib"]), number(row["second_mib"])]
         )
     head = [
-        "in turns",
+        "alternately",
         "PCL or LASzip, ms",
         "pcd_bv, ms",
         "ratio: median of pairs (of minima)",

@@ -93,7 +93,7 @@ def growth(results):
             + [number(per_point[n]) for n in shown]
         )
     return table(
-        ["one thread", "points", "exponent", "ns a point at the least", "at about 1 M", "at the most"], lines
+        ["one thread", "points", "exponent", "ns a point, smallest cloud", "about 1 M", "largest cloud"], lines
     )
 
 
@@ -110,7 +110,7 @@ def pipeline(results):
             ]
             + [number(run["max"]), number(run.get("first_max"))]
         )
-    return table(["ms, 50th / 99th percentile", "clusters", *stages, "greatest", "of the first five"], lines)
+    return table(["ms, 50th / 99th percentile", "clusters", *stages, "maximum", "of the first five"], lines)
 
 
 def speeds(results, works, clouds):

@@ -61,7 +61,7 @@ def bad_points(results):
         for what, row, bounds in (
             ("AABB, test of every point", "over-unchecked-aabb/aabb", aabb),
             ("26-DOP, test of every point", "over-unchecked-dop26/tested-dop26", dop26),
-            ("26-DOP, the exact look at its extremes", "over-tested-dop26/dop26", look),
+            ("26-DOP, the exact comparison of its extremes", "over-tested-dop26/dop26", look),
         ):
             lines += by_set(results, what, INPUTS[cloud], f"{row}/{{}}/{cloud}", bounds, cost)
     return Target("bad-points", "What dropping bad points costs", "pairs", lines)
@@ -139,7 +139,7 @@ def least_box_against_cgal(results):
     if row:
         reached = judge(row["us"][0] / 1e3, "<=", 0.3, unit=" ms")
         lines.append(Line("gauss:1000, alone", f"one thread, {results.best}", *reached))
-    return Target("obb-cgal", "Least oriented box against CGAL::oriented_bounding_box", "obb", lines)
+    return Target("obb-cgal", "Smallest oriented box against CGAL::oriented_bounding_box", "obb", lines)
 
 
 def many_clusters_against_pcl(results):
@@ -185,7 +185,7 @@ def two_threads(results):
     for (place, wait, work, isa), (ratio, aside, n) in sorted(least.items()):
         bound = (0.95 if place[0] == "4" else 1.8) if wait == "own" else None
         reached = judge(ratio, ">=", bound, aside=aside)
-        lines.append(Line(f"{work} {isa}, {POOLS[wait]}", f"{place}; least at {count(n)} points", *reached))
+        lines.append(Line(f"{work} {isa}, {POOLS[wait]}", f"{place}; smallest ratio at {count(n)} points", *reached))
     return Target("threads", "Two threads against one", "pairs pairs-openmp pairs-passive", lines)
 
 
@@ -223,7 +223,7 @@ def least_boxes_of_sweeps(results):
     row, lines = results.rows.get("pipeline/obb-min-1-thread/sweeps"), []
     if row:
         lines.append(Line("recorded sweeps", "one thread, p50", *judge(row["fit_p50"], "<=", 30, unit=" ms")))
-    return Target("obb-sweep", "Least oriented boxes of all clusters of a sweep", "pipeline", lines)
+    return Target("obb-sweep", "Smallest oriented boxes of all clusters of a sweep", "pipeline", lines)
 
 
 def binary_file(results):
@@ -281,7 +281,7 @@ def live_topics(results):
     row = results.rows.get("dds/clouds-to-markers")
     if row:
         where = f"{row['sent']} clouds of 2 MB, 20 a second, loopback, threads: 2"
-        lines.append(Line("clouds answered", where, *judge(row["answered"], ">=", 600)))
+        lines.append(Line("clouds processed", where, *judge(row["answered"], ">=", 600)))
         lines.append(Line("cloud to markers, p50", where, *judge(row["p50_ms"], "<=", None, unit=" ms")))
         lines.append(Line("cloud to markers, p99", where, *judge(row["p99_ms"], "<=", 15, unit=" ms")))
     return Target("dds", "bv_stream between ROS 2's topics", "dds", lines)

@@ -26,7 +26,7 @@ def tree_builds(results):
             + [number(row[side] / 1e3) for side in ("first_us", "second_us")]
             + [f"{number(ratio)} ({number(of_minima)})"]
         )
-    return table(["in turns, one thread", "peer, ms", "ours, ms", "ratio: median of pairs (of minima)"], lines)
+    return table(["alternately, one thread", "peer, ms", "pcl_bv, ms", "ratio: median of pairs (of minima)"], lines)
 
 
 def tree_questions(results):
@@ -43,7 +43,7 @@ def tree_questions(results):
             + [number(1e3 * row[side] / row["questions"]) for side in ("first_us", "second_us")]
             + [f"{number(ratio)} ({number(of_minima)})", f"{row['wrong']} of {row['questions']}"]
         )
-    head = ["in turns, one thread", "peer, ns", "ours, ns", "ratio: median of pairs (of minima)", "peer's wrong"]
+    head = ["alternately, one thread", "peer, ns", "pcl_bv, ns", "ratio: median of pairs (of minima)", "peer's wrong"]
     return table(head, lines)
 
 
@@ -76,7 +76,7 @@ def tree_volumes(results):
         row = results.rows[name]
         ours = number(1e3 * row["us"][0] / row["questions"])
         lines.append(["a posture of ten links: which are within 5 cm of a sweep's points", "", ours, ""])
-    return table(["one thread", "one by one, ns", "ours, ns", "ratio: median of pairs (of minima)"], lines)
+    return table(["one thread", "one by one, ns", "pcl_bv, ns", "ratio: median of pairs (of minima)"], lines)
 
 
 def target(results):
@@ -98,11 +98,11 @@ def target(results):
         lines.append(Line(f"yes-or-no sphere, slowest of {len(names)} radii", where, *reached))
     for name in results.matching(f"tree/over-flann/sweep-[a-z]*/{best}/"):
         what, scene = name.split("/")[2].removeprefix("sweep-"), name.split("/")[4]
-        where = f"{scene}, {count(round(results.rows[name]['questions']))} questions, one thread, {best}"
-        lines += faster(results, f"built and asked ({what}), over FLANN", where, name, 3)
+        where = f"{scene}, {count(round(results.rows[name]['questions']))} queries, one thread, {best}"
+        lines += faster(results, f"built and queried ({what}), over FLANN", where, name, 3)
     for name in results.matching("tree/wrong/"):
         row = results.rows[name]
-        where = f"{count(round(row['questions']))} random questions, {name.split('/')[2]}"
+        where = f"{count(round(row['questions']))} random queries, {name.split('/')[2]}"
         lines.append(Line("wrong answers", where, *judge(row["wrong"], "<=", 0)))
     return Target("trees", "Trees over points; ns: median (mean)", "trees", lines)
 
