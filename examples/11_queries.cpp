@@ -18,7 +18,7 @@ int main() {
   }
   const auto cloud = pcl_bv::PointView::of(xyz.data(), 3 * sizeof(float), xyz.size() / 3);
 
-  pcl_bv::PointTree tree(cloud);  // 10 000 points: 0.2 ms
+  pcl_bv::PointTree tree(cloud);  // 10 000 points: 0.2 to 0.4 ms
   const auto nearest = tree.nearest({0, 0, 1});
   std::vector<std::int32_t> seen;
   tree.all_inside(pcl_bv::frustum(Eigen::Isometry3d(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY())),
