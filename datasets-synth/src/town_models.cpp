@@ -113,11 +113,11 @@ class ModelSampler {
  private:
   void sample(const RayGrid& grid) {
     const auto steps = [&](Vec3 edge) {
-      return std::max(1.0, std::round(std::sqrt(dot(edge, edge)) / spacing_));
+      return std::max(1, static_cast<int>(std::round(std::sqrt(dot(edge, edge)) / spacing_)));
     };
-    const double columns = steps(grid.u), rows = steps(grid.v);
-    for (double i = 0; i < columns; ++i) {
-      for (double k = 0; k < rows; ++k) {
+    const int columns = steps(grid.u), rows = steps(grid.v);
+    for (int i = 0; i < columns; ++i) {
+      for (int k = 0; k < rows; ++k) {
         const double s = (i + random_.uniform(0.3, 0.7)) / columns;
         const double t = (k + random_.uniform(0.3, 0.7)) / rows;
         // The ray begins outside of the model. cast() has rays from the origin, so the model is moved.

@@ -183,12 +183,13 @@ ClusterSlabs find_slabs(const DevicePoints& cloud, const DeviceClusters& cluster
   }
   std::deque<SlabPass> passes;
   add_passes(search, slices.size(), passes);
-  const std::size_t count = passes.size();
-  for (std::size_t i = 0; i < count; ++i)
-    passes[i].start(slices[i]);
+  std::size_t started = 0;
+  for (SlabPass& pass : passes)
+    pass.start(slices[started++]);
   for (std::size_t i = 0; i < slices.size(); ++i) {
-    passes[i % count].finish(out, execution);
-    if (i + count < slices.size()) passes[i % count].start(slices[i + count]);
+    SlabPass& pass = i % 2 == 0 ? passes.front() : passes.back();  // the same one if memory is short
+    pass.finish(out, execution);
+    if (started < slices.size()) pass.start(slices[started++]);
   }
   return out;
 }

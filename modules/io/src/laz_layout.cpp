@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <string_view>
 
 #include "fields.h"
 #include "las_format.h"
@@ -75,8 +76,9 @@ std::string find_record(const InputFile& file, std::size_t data_offset) {
     file.read(at, bytes.data(), head);
     const auto length = value_at<std::uint16_t>(bytes, 20);
     at += head;
-    const bool found = std::strncmp(bytes.data() + 2, "laszip encoded", 16) == 0 &&
-                       value_at<std::uint16_t>(bytes, 18) == 22204;
+    const std::string_view user(bytes.data() + 2, 16);
+    const bool found =
+        user.substr(0, user.find('\0')) == "laszip encoded" && value_at<std::uint16_t>(bytes, 18) == 22204;
     if (found && length <= end - at) {
       std::string data(length, '\0');
       file.read(at, data.data(), length);

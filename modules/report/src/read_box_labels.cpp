@@ -88,7 +88,8 @@ void append_cuboids(const LabelJson& json, const std::string& path, std::vector<
   for (const auto& [key, value] : json.items()) {
     ++i;
     if (!value.is_structured()) continue;
-    const std::string inner = path + (json.is_object() ? '.' + key : '[' + std::to_string(i - 1) + ']');
+    std::string inner = path;
+    inner += json.is_object() ? '.' + key : '[' + std::to_string(i - 1) + ']';
     if (json.is_object() && key == "cuboid") {
       append_boxes(value, inner, openlabel_box, volumes);
     } else {

@@ -165,7 +165,7 @@ std::optional<TileFailure> find_ground(Ranks& ranks, const Tiles& tiles, const O
                                        std::optional<CloudGround>& ground) {
   if (!options.slope_ground()) return std::nullopt;
   const auto no_more = [] { return 0.0; };
-  const auto failure = run_on_all(
+  auto failure = run_on_all(
       ranks, costs,
       [&] {
         write_ground_part(tiles, {ranks.rank(), ranks.size()}, options, folder.ground_file(ranks.rank()),
@@ -189,7 +189,7 @@ std::optional<TileFailure> find_ground(Ranks& ranks, const Tiles& tiles, const O
 std::optional<TileFailure> write_shares(Ranks& ranks, const Tiles& tiles, const Options& options,
                                         const CommonFolder& folder, RankCosts& costs) {
   std::optional<CloudGround> ground;
-  if (const auto failure = find_ground(ranks, tiles, options, folder, costs, ground)) return failure;
+  if (auto failure = find_ground(ranks, tiles, options, folder, costs, ground)) return failure;
   CellExchange messages(ranks);
   return run_on_all(
       ranks, costs,
