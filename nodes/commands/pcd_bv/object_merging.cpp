@@ -122,7 +122,10 @@ class ClassMerger {
     const Stopwatch watch;
     std::vector<Object> objects = find_objects(*clusters);
     fit_seconds += watch.seconds();
-    if (std::exchange(has_new_bad_texts_, false)) return false;
+    if (!new_bad_texts_.empty()) {
+      bad_texts_.merge(std::exchange(new_bad_texts_, {}));
+      return false;
+    }
     list.add(std::move(clusters), std::move(objects));
     return true;
   }
@@ -163,8 +166,7 @@ class ClassMerger {
     } catch (const IoError& error) {
       add_problem(component.share, std::string(error.what()) + ": such volumes are fitted again");
       const std::lock_guard lock(mutex_);
-      bad_texts_.emplace(component.share, component.number);
-      has_new_bad_texts_ = true;
+      new_bad_texts_.emplace(component.share, component.number);
       return {};
     }
   }
@@ -179,8 +181,8 @@ class ClassMerger {
   FileLife life_;
   std::mutex mutex_;
   std::set<std::pair<std::size_t, std::string>> problems_;     // of shares, each once
-  std::set<std::pair<std::size_t, std::uint32_t>> bad_texts_;  // shares and numbers of components
-  bool has_new_bad_texts_ = false;
+  // Shares and numbers of components. Threads read those of earlier attempts, and add new ones.
+  std::set<std::pair<std::size_t, std::uint32_t>> bad_texts_, new_bad_texts_;
 };
 
 }  // namespace
