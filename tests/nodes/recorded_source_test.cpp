@@ -355,6 +355,18 @@ class RecordedTransformsTest : public Folder {
     return file;
   }
 
+  // Records a transform at each of these seconds: the robot is at x = 1 at the first one, 2 at the second
+  // one, ...
+  std::string record_at(const std::vector<std::int64_t>& seconds) const {
+    const std::string file = (path_ / "times.mcap").string();
+    McapWriter writer(file);
+    for (std::size_t i = 0; i < seconds.size(); ++i)
+      write(writer, "/tf", transform(static_cast<double>(i + 1), seconds[i] * 1'000'000'000),
+            seconds[i] * 1'000'000'000);
+    writer.close();
+    return file;
+  }
+
   static double x_of(const std::string& recording, const std::string& odometry) {
     Transforms transforms;
     recorded_transforms(recording, odometry)->read(0, transforms);
@@ -363,8 +375,9 @@ class RecordedTransformsTest : public Folder {
   }
 
  private:
-  static msg::TFMessage transform(double x) {
+  static msg::TFMessage transform(double x, std::int64_t stamp_ns = 0) {
     msg::TransformStamped step;
+    step.header.stamp = msg::time_of(stamp_ns);
     step.header.frame_id = "odom";
     step.child_frame_id = "base";
     step.transform.translation.x = x;
@@ -372,11 +385,12 @@ class RecordedTransformsTest : public Folder {
   }
 
   template <class Message>
-  static void write(McapWriter& writer, const std::string& topic, const Message& message) {
+  static void write(McapWriter& writer, const std::string& topic, const Message& message,
+                    std::int64_t time = 0) {
     std::vector<std::byte> bytes;
     write_cdr(message, bytes);
     const std::size_t number = writer.add_topic({topic, Message::ros_type, "", {}});
-    writer.write(number, 0, 0, bytes.data(), bytes.size());
+    writer.write(number, time, time, bytes.data(), bytes.size());
   }
 };
 
@@ -419,6 +433,18 @@ TEST_F(RecordedTransformsTest, TolerateAnyTimeOfACloud) {
        {std::numeric_limits<std::int64_t>::min(), std::int64_t{0}, std::numeric_limits<std::int64_t>::max()})
     feed->read(time, transforms);
   EXPECT_TRUE(transforms.find("odom", "base", 0).pose);
+}
+
+TEST_F(RecordedTransformsTest, AreKnownOnBothSidesOfAPause) {
+  const auto feed = recorded_transforms(record_at({1, 2, 60, 61}), "");
+  Transforms transforms;
+  for (const auto& [second, x] : {std::pair{1, 1.0}, {2, 2.0}, {60, 3.0}, {61, 4.0}, {2, 2.0}, {61, 4.0}}) {
+    const std::int64_t time = second * 1'000'000'000LL;
+    feed->read(time, transforms);
+    const FoundTransform found = transforms.find("odom", "base", time);
+    ASSERT_TRUE(found.pose) << "at " << second << " s: " << found.problem;
+    EXPECT_EQ(found.pose->translation().x(), x);
+  }
 }
 
 TEST_F(RecordedTransformsTest, AreThoseOfTheFirstOrTheNamedTopicOfOdometryWithoutTf) {

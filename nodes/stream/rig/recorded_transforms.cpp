@@ -97,13 +97,8 @@ class RecordedTransforms final : public TransformFeed {
     recorded_ns = std::clamp(recorded_ns, -kMaxTime, kMaxTime);
     if (latest_ns_ && recorded_ns < *latest_ns_ - kRestart) begin_again();
     latest_ns_ = std::max(latest_ns_.value_or(recorded_ns), recorded_ns);
-    while (!at_end_ && last_read_ns_ <= recorded_ns + kReadAhead) {
-      RecordedMessage message;
-      at_end_ = !reader_->next(message);
-      if (at_end_) return;
-      last_read_ns_ = message.log_time_ns;
-      add(message, false, to);
-    }
+    while (advance() && next_->log_time_ns <= recorded_ns + kReadAhead)
+      add(*std::exchange(next_, std::nullopt), false, to);
   }
 
   std::vector<std::string> take_warnings() override { return std::exchange(warnings_, {}); }
@@ -113,7 +108,16 @@ class RecordedTransforms final : public TransformFeed {
     reader_->select(changing_);
     at_end_ = false;
     latest_ns_.reset();
-    last_read_ns_ = std::numeric_limits<std::int64_t>::min();
+    next_.reset();
+  }
+
+  // Reads the next message unless it is known. Returns false at the end.
+  bool advance() {
+    if (next_ || at_end_) return !at_end_;
+    RecordedMessage message;
+    at_end_ = !reader_->next(message);
+    if (!at_end_) next_ = message;
+    return !at_end_;
   }
 
   void read_fixed(Transforms& to) {
@@ -145,7 +149,9 @@ class RecordedTransforms final : public TransformFeed {
 
   std::unique_ptr<RecordingReader> reader_;
   std::vector<std::size_t> fixed_, changing_;
-  std::int64_t last_read_ns_ = std::numeric_limits<std::int64_t>::min();
+  // A message that is too late for the requested time. After a pause it would displace the poses before the
+  // pause.
+  std::optional<RecordedMessage> next_;
   std::optional<std::int64_t> latest_ns_;  // latest requested time
   bool begun_ = false, at_end_ = false, warned_ = false;
   std::vector<std::string> warnings_;
