@@ -6,11 +6,13 @@
 #include <gmock/gmock.h>
 #include <zstd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "dds_test.h"
 #include "message_bytes.h"
@@ -68,6 +70,15 @@ class Dds : public DdsTest {
     return at("small.pcd");
   }
 
+  /// The stamps of the frames in a file of JSON Lines.
+  static std::vector<std::int64_t> stamps_in(const std::string& file) {
+    std::vector<std::int64_t> stamps;
+    std::istringstream lines(text_of(file));
+    for (std::string line; std::getline(lines, line) && !lines.eof();)  // the last line may be incomplete
+      stamps.push_back(nlohmann::json::parse(line)["stamp_ns"]);
+    return stamps;
+  }
+
   /// Of one topic to bv_stream and back from it.
   struct Talk {
     explicit Talk(const std::string& prefix)
@@ -90,11 +101,19 @@ TEST_F(Dds, EveryCloudOfOneProcessReachesTheOther) {
                 {"--source", small_cloud(), "--loop", "30", "--rate", "10", "--queue", "100", "--ground",
                  "none", "--sink", "dds:/a", "--sink", "jsonl:" + at("from.jsonl")});
   EXPECT_EQ(from.wait(), 0);
-  EXPECT_TRUE(wait_for([&] { return lines_of(at("to.jsonl")) >= 29; }));
+  const std::vector<std::int64_t> sent = stamps_in(at("from.jsonl"));
+  ASSERT_EQ(sent.size(), 30U);
+  EXPECT_TRUE(wait_for([&] {
+    const auto heard = stamps_in(at("to.jsonl"));
+    return !heard.empty() && heard.back() == sent.back();
+  }));
   EXPECT_EQ(to.end(SIGINT), 0);
   EXPECT_EQ(from.errors(), "");
+  const std::vector<std::int64_t> heard = stamps_in(at("to.jsonl"));
+  ASSERT_GE(heard.size(), 20U);  // the first ones may go while the two processes get to know each other
+  EXPECT_TRUE(std::equal(heard.end() - 20, heard.end(), sent.end() - 20)) << text_of(at("to.jsonl"));
   const nlohmann::json stats = nlohmann::json::parse(text_of(at("to.json")));
-  EXPECT_GE(stats["frames"]["processed"], 29);  // the first may go before the reader is known
+  EXPECT_EQ(stats["frames"]["processed"], heard.size());
   EXPECT_EQ(stats["frames"]["dropped"]["error"], 0);
 }
 
