@@ -97,7 +97,7 @@ class RecordedTransforms final : public TransformFeed {
     recorded_ns = std::clamp(recorded_ns, -kMaxTime, kMaxTime);
     if (latest_ns_ && recorded_ns < *latest_ns_ - kRestart) begin_again();
     latest_ns_ = std::max(latest_ns_.value_or(recorded_ns), recorded_ns);
-    while (advance() && next_->log_time_ns <= recorded_ns + kReadAhead)
+    while (read_next() && next_->log_time_ns <= recorded_ns + kReadAhead)
       add(*std::exchange(next_, std::nullopt), false, to);
   }
 
@@ -111,13 +111,13 @@ class RecordedTransforms final : public TransformFeed {
     next_.reset();
   }
 
-  // Reads the next message unless it is known. Returns false at the end.
-  bool advance() {
-    if (next_ || at_end_) return !at_end_;
-    RecordedMessage message;
-    at_end_ = !reader_->next(message);
-    if (!at_end_) next_ = message;
-    return !at_end_;
+  // Reads the next message if none is kept. Returns false at the end.
+  bool read_next() {
+    if (RecordedMessage message; !next_ && !at_end_) {
+      at_end_ = !reader_->next(message);
+      if (!at_end_) next_ = message;
+    }
+    return next_.has_value();
   }
 
   void read_fixed(Transforms& to) {
@@ -149,8 +149,7 @@ class RecordedTransforms final : public TransformFeed {
 
   std::unique_ptr<RecordingReader> reader_;
   std::vector<std::size_t> fixed_, changing_;
-  // A message that is too late for the requested time. After a pause it would displace the poses before the
-  // pause.
+  // Kept until its time is requested: after a pause of 20 s it would displace the poses before the pause.
   std::optional<RecordedMessage> next_;
   std::optional<std::int64_t> latest_ns_;  // latest requested time
   bool begun_ = false, at_end_ = false, warned_ = false;
