@@ -51,8 +51,9 @@ def misses(results, all_targets):
 
 
 def inline(results, what, name):
-    """A figure in running text: {{ms ROW}}, {{least ROW}} (repetition), {{speed ROW}}; of rows that
-    ran alternately {{ratio ROW}}, {{percent ROW}}, {{minima ROW}} (their ratio), {{first ROW}}, {{second ROW}}; any other word is a counter.
+    """A figure in running text: {{ms ROW}}, {{least ROW}} (repetition), {{speed ROW}}; of rows that ran
+    alternately {{ratio ROW}}, {{percent ROW}}, {{minima ROW}} (their ratio), {{first ROW}}, {{second ROW}}; any
+    other word is a counter.
     """
     row = results.rows.get(name)
     if row is None:
