@@ -40,6 +40,8 @@ if("recording" IN_LIST PCL_BV_COMPONENTS)
 endif()
 if("nodes" IN_LIST PCL_BV_COMPONENTS)
   find_package(yaml-cpp REQUIRED)
+endif()
+if("nodes" IN_LIST PCL_BV_COMPONENTS AND PCL_BV_STREAMS)
   find_package(tinyxml2 REQUIRED)
   # Debian 13's wants this of its users. All targets share precompiled headers, so all get it.
   get_target_property(definitions tinyxml2::tinyxml2 INTERFACE_COMPILE_DEFINITIONS)

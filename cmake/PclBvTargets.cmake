@@ -55,6 +55,16 @@ function(pcl_bv_unity target)
   endif()
 endfunction()
 
+# What pcl_bv_library() and programs have in common: all begin with one precompiled header, so they need the same options.
+function(pcl_bv_compile_as_library target)
+  pcl_bv_compile_options(${target})
+  # What public headers declare is visible (an attribute of their namespace); the rest is nobody's interface.
+  set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  target_compile_options(${target} PRIVATE -fPIC)
+  pcl_bv_precompile(${target} cmake/precompiled.h library)
+  pcl_bv_unity(${target})
+endfunction()
+
 # pcl_bv_library(name [COMPONENT component] SOURCES ... PUBLIC ... PRIVATE ...): the layer `name`, as pcl_bv::name,
 # installed with this component of the package (`name`). PRECOMPILED: its sources begin with cmake/precompiled.h.
 # NO_UNITY: each source is compiled on its own whatever PCL_BV_UNITY says.
