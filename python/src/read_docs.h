@@ -13,8 +13,9 @@ inline constexpr const char* read_doc = R"(read(path, *, topic=None, number=0, b
 Reads a cloud. Returns an array of records with all fields of the file. For an organised cloud, the shape is
 (height, width).
 
-path: .pcd, .ply, .las, .laz, .bin (KITTI, nuScenes), 'synth:NAME[:POINTS[:SEED]]', or a recording (.mcap, .db3,
-    .bag, .pcap), of which cloud `number` is read. frames() reads a whole recording faster.
+path: .pcd, .ply, .las, .laz, .bin (KITTI, nuScenes), NumPy's .npy and .npz, text (.xyz, .csv, .txt, .asc, .pts),
+    'synth:NAME[:POINTS[:SEED]]', or a recording (.mcap, .db3, .bag, .pcap, .pcapng), of which cloud `number` is
+    read. frames() reads a whole recording faster.
 topic: the topic of a recording; None: the only topic with clouds.
 bin_fields: number of float32 per point of a .bin file, 3 to 32. 0: chosen by the file name, 5 for .pcd.bin,
     otherwise 4.
@@ -35,8 +36,8 @@ inline constexpr const char* frames_doc =
 
 Returns an iterator over the Frames of a source, for Pipeline.process().
 
-source: a folder of clouds or a file, a recording (.mcap, .db3 or its folder, .bag, .pcap), 'dds:TOPIC', or
-    'synth:street-sequence[:FRAMES[:SEED]]'.
+source: a folder of clouds, a file as for read(), a recording (.mcap, .db3 or its folder, .bag, .pcap, .pcapng),
+    'dds:TOPIC', or 'synth:street-sequence[:FRAMES[:SEED]]'.
 rate: frame rate in Hz. None: the stamps of a recording, or 10 Hz for other sources. The iterator does not
     wait to keep this rate.
 poses: a file of the sensor's poses, in KITTI's or TUM's format.

@@ -56,7 +56,8 @@ std::string npz(const std::vector<Zipped>& entries) {
     const auto method = little(static_cast<std::uint16_t>(deflate ? 8 : 0));
     const auto length = little(static_cast<std::uint16_t>(name.size()));
     const std::string none(2, '\0');
-    directory += "PK\1\2" + none + none + none + method + std::string(8, '\0') + sizes + length +
+    const auto crc = little(libdeflate_crc32(0, array.data(), array.size()));
+    directory += "PK\1\2" + none + none + none + method + none + none + crc + sizes + length +
                  std::string(12, '\0') + little(static_cast<std::uint32_t>(file.size())) + name;
     file += "PK\3\4" + none + none + method + std::string(8, '\0') + sizes + length + none + name + packed;
   }
@@ -149,6 +150,30 @@ TEST_F(Numpy, ArchivesHaveStoredAndDeflatedArrays) {
   }
   EXPECT_EQ(read(npz({{"any.npy", array}}), ".npz").note, "");
   EXPECT_EQ(read_cloud_header(file("a.npz")).cloud.size(), 2U);
+}
+
+TEST_F(Numpy, AChangedByteOfAnArchiveIsFoundByItsCheckSum) {
+  const std::string array = npy(points("(2, 3)"), floats({1, 2, 3, 4, 5, 6}));
+  for (const bool deflate : {false, true}) {
+    const std::string good = npz({{"points.npy", array, deflate}});
+    std::size_t found = 0;
+    for (std::size_t i = good.find("PK\1\2") - 20; i < good.find("PK\1\2"); ++i) {
+      std::string changed = good;
+      changed[i] = static_cast<char>(changed[i] ^ 1);
+      const std::string text = reason(changed, ".npz");
+      EXPECT_THAT(text, HasSubstr("array 'points' is damaged")) << i;
+      found += text.find("its check sum (CRC-32) differs") != std::string::npos;
+    }
+    EXPECT_GT(found, 0U);
+  }
+}
+
+TEST_F(Numpy, AnArrayThatLooksTransposedIsReadWithANote) {
+  const std::vector<float> values(3 * 100, 1.0f);
+  const RawCloud cloud = read(npy(points("(3, 100)"), floats(values)));
+  EXPECT_EQ(cloud.size(), 3U);
+  EXPECT_THAT(cloud.note, HasSubstr("3 points with 100 columns: if the array has a column for each point"));
+  EXPECT_EQ(read(npy(points("(3, 32)"), floats(values).substr(0, 4 * 96))).note, "");
 }
 
 TEST_F(Numpy, DamagedArchivesAreRefusedByName) {

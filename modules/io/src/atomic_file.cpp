@@ -172,6 +172,14 @@ void replace_file_atomically(const fs::path& path, const std::function<void(cons
   replace(path, [&](const FileDescriptor&, const fs::path& temporary) { write(temporary); });
 }
 
+void create_folder(const fs::path& folder) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (!failure && !fs::is_directory(folder, failure))
+    failure = std::make_error_code(std::errc::not_a_directory);
+  if (failure) throw IoError("cannot create this folder: " + system_reason(failure.value()));
+}
+
 void create_parent_folders(const fs::path& file) {
   std::error_code failure;
   if (file.has_parent_path()) fs::create_directories(file.parent_path(), failure);

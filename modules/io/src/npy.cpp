@@ -132,6 +132,8 @@ void read_record_type(PythonText& text, RawCloud& cloud) {
   }
 }
 
+constexpr std::size_t kManyColumns = 32;  // rarely of a point, but often of an array that is transposed
+
 // Makes fields of the columns of numbers.
 void add_columns(const PointField& number, std::size_t columns, RawCloud& cloud) {
   if (columns < 3) invalid_npy("the array has " + std::to_string(columns) + " columns, not 3 or more");
@@ -194,6 +196,9 @@ NpyHeader parse_npy_header(std::string_view start) {
     if (header.by_column && shape->size() > 2)
       invalid_npy("organised clouds in Fortran's order are not supported");
     add_columns(*number, shape->back(), cloud);
+    if (shape->size() == 2 && shape->front() <= 4 && shape->back() > kManyColumns)
+      add_note(cloud, std::to_string(shape->front()) + " points with " + std::to_string(shape->back()) +
+                          " columns: if the array has a column for each point, store its transpose");
     shape->pop_back();
   }
   header.by_column = header.by_column && number.has_value();

@@ -14,6 +14,7 @@
 
 #include "fields.h"
 #include "npy_format.h"
+#include "pcl_bv/io/crc32.h"
 #include "pcl_bv/io/numpy.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
 
@@ -28,6 +29,7 @@ constexpr std::uint32_t kIn64 = 0xFFFFFFFF;
 struct ZipEntry {
   std::string name;  // without .npy
   unsigned flags = 0, method = 0;
+  std::uint32_t crc = 0;
   std::size_t compressed = 0, size = 0, begin = 0;
 };
 
@@ -91,6 +93,7 @@ std::vector<ZipEntry> read_zip_directory(const InputFile& file) {
     ZipEntry entry;
     entry.flags = static_cast<unsigned>(zip_number<std::uint16_t>(directory, at + 8));
     entry.method = static_cast<unsigned>(zip_number<std::uint16_t>(directory, at + 10));
+    entry.crc = static_cast<std::uint32_t>(zip_number<std::uint32_t>(directory, at + 16));
     entry.compressed = zip_number<std::uint32_t>(directory, at + 20);
     entry.size = zip_number<std::uint32_t>(directory, at + 24);
     entry.begin = zip_number<std::uint32_t>(directory, at + 42);
@@ -110,15 +113,23 @@ std::vector<ZipEntry> read_zip_directory(const InputFile& file) {
 }
 
 const ZipEntry& cloud_entry(const std::vector<ZipEntry>& entries) {
-  for (const char* name : {"points", "xyz", "cloud", "pointcloud", "point_cloud", "pc", "data", "arr_0"})
+  std::string known;
+  for (const char* name : {"points", "xyz", "cloud", "pointcloud", "point_cloud", "pc", "data", "arr_0"}) {
+    known += (known.empty() ? "" : ", ") + std::string(name);
     for (const ZipEntry& entry : entries)
       if (entry.name == name) return entry;
+  }
   if (entries.size() == 1) return entries.front();
   std::string names;
   for (const ZipEntry& entry : entries)
     names += (names.empty() ? "" : ", ") + entry.name;
   if (entries.empty()) throw IoError("has no array");
-  throw IoError("none of its arrays is named points, xyz, cloud or data: " + in_quotes(names));
+  throw IoError("none of its arrays has one of the names " + known + ": " + in_quotes(names));
+}
+
+void require_crc(const ZipEntry& entry, const std::string& array) {
+  if (crc32_of(array.data(), array.size()) != entry.crc)
+    throw IoError("array " + in_quotes(entry.name) + " is damaged: its check sum (CRC-32) differs");
 }
 
 std::string array_of(const InputFile& file, const ZipEntry& entry) {
@@ -133,7 +144,10 @@ std::string array_of(const InputFile& file, const ZipEntry& entry) {
     throw IoError("array " + in_quotes(entry.name) + ": its size cannot be right");
   if (entry.method == 0 && entry.size != entry.compressed) throw IoError("its directory is damaged");
   std::string bytes = bytes_at(file, begin, entry.compressed);
-  if (entry.method == 0) return bytes;
+  if (entry.method == 0) {
+    require_crc(entry, bytes);
+    return bytes;
+  }
   std::string array(entry.size, '\0');
   const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> decompressor(
       libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
@@ -141,6 +155,7 @@ std::string array_of(const InputFile& file, const ZipEntry& entry) {
   const libdeflate_result result = libdeflate_deflate_decompress(
       decompressor.get(), bytes.data(), bytes.size(), array.data(), array.size(), nullptr);
   if (result != LIBDEFLATE_SUCCESS) throw IoError("array " + in_quotes(entry.name) + " is damaged");
+  require_crc(entry, array);
   return array;
 }
 

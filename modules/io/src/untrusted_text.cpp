@@ -4,7 +4,10 @@
 #include "pcl_bv/io/untrusted_text.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
+
+#include "pcl_bv/io/posix_file.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -23,8 +26,10 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
 
 std::string read_untrusted_text(const std::filesystem::path& path, std::size_t max_bytes) {
   std::error_code unknown;
+  errno = 0;
   std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path, unknown)) throw IoError("cannot be read");
+  if (!stream) throw IoError(errno != 0 ? system_reason(errno) : "cannot be read");
+  if (std::filesystem::is_directory(path, unknown)) throw IoError(system_reason(EISDIR));
   std::string text;
   for (std::size_t block = 1 << 12; stream && text.size() <= max_bytes;
        block = std::max(block, text.size())) {
@@ -34,6 +39,7 @@ std::string read_untrusted_text(const std::filesystem::path& path, std::size_t m
     text.resize(before + static_cast<std::size_t>(stream.gcount()));
   }
   if (stream.bad()) throw IoError("cannot be read");
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // a byte order mark, which editors may write
   if (text.size() > max_bytes) throw IoError("has more than " + std::to_string(max_bytes) + " bytes");
   return text;
 }

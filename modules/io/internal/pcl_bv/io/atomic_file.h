@@ -48,6 +48,9 @@ void write_file_atomically(const std::filesystem::path& path,
 void replace_file_atomically(const std::filesystem::path& path,
                              const std::function<void(const std::filesystem::path&)>& write);
 
+/// Creates a folder and its missing parents, unless it exists. Throws IoError with the reason.
+void create_folder(const std::filesystem::path& folder);
+
 /// Creates the missing parent folders of a file. Throws IoError with the reason.
 void create_parent_folders(const std::filesystem::path& file);
 

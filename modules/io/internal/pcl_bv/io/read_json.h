@@ -29,8 +29,12 @@ inline std::optional<UntrustedJson> read_next_json(std::string_view text, std::s
   } catch (const UntrustedJson::parse_error& error) {
     if (error.byte > value.size()) throw IoError("truncated JSON: the last value is incomplete");
     throw IoError(position_in(text, begin + error.byte - 1) + ": invalid JSON");
-  } catch (const UntrustedJson::exception&) {
-    throw IoError(position_in(text, begin) + ": a number is too large");
+  } catch (const UntrustedJson::exception& error) {  // its message ends with the number in quotes
+    std::string_view number = error.what();
+    number.remove_prefix(std::min(number.find('\''), number.size() - 1) + 1);
+    number = number.substr(0, number.find('\''));
+    throw IoError(position_in(text, begin + std::min(value.find(number), value.size())) +
+                  ": a number is too large");
   }
 }
 

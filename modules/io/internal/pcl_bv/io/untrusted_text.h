@@ -26,8 +26,9 @@ inline constexpr std::size_t kMaxPosesBytes = std::size_t{1} << 30;           //
 /// deep.
 inline constexpr int kMaxJsonDepth = 64;
 
-/// Returns the content of a file or a pipe. Never reads more than `max_bytes` + 1 bytes. Throws IoError, such
-/// as "cannot be read" or "has more than 1048576 bytes".
+/// Returns the content of a file or a pipe, without a byte order mark (UTF-8) at its beginning. Never reads
+/// more than `max_bytes` + 1 bytes. Throws IoError, such as "no such file or directory" or "has more than
+/// 1048576 bytes".
 std::string read_untrusted_text(const std::filesystem::path& path, std::size_t max_bytes);
 
 /// Returns the text of the JSON value that begins at `text[at]` or after white space there, and moves `at` to
