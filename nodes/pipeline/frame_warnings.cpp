@@ -51,9 +51,13 @@ std::string percent(double share) {
 }
 
 std::string text_of(const Eigen::Vector3d& position) {
-  char text[120];
-  std::snprintf(text, sizeof text, "(%.1f, %.1f, %.1f)", position.x(), position.y(), position.z());
-  return text;
+  std::string text = "(";
+  for (const double coordinate : position) {
+    char number[40];
+    std::snprintf(number, sizeof number, std::abs(coordinate) < 1e9 ? "%.1f" : "%g", coordinate);
+    text.append(text.size() > 1 ? ", " : "").append(number);
+  }
+  return text + ')';
 }
 
 std::string no_ground(const Found& f) {

@@ -170,11 +170,18 @@ std::vector<fs::path> files_without_metadata(const fs::path& folder) {
   return files;
 }
 
+fs::path temporary_folder() {
+  std::error_code failure;
+  const fs::path folder = fs::temp_directory_path(failure);
+  if (failure) throw IoError("no folder for temporary files (TMPDIR): " + system_reason(failure.value()));
+  return folder;
+}
+
 // A temporary file that only this user can read. It is removed at destruction.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::vector<std::byte>& bytes)
-      : path_((fs::temp_directory_path() / "pcl_bv_XXXXXX").string()) {
+      : path_((temporary_folder() / "pcl_bv_XXXXXX").string()) {
     const int descriptor = ::mkstemp(path_.data());
     if (descriptor < 0) throw IoError(path_ + ": " + system_reason(errno));
     for (std::size_t done = 0; done < bytes.size();) {
@@ -210,9 +217,13 @@ bool is_rosbag2_folder(const fs::path& folder) {
 // A recorder writes metadata.yaml last. Therefore metadata.yaml may be older than the files or incomplete. If
 // metadata.yaml cannot be read, all files of the folder are used.
 std::unique_ptr<RecordingReader> open_rosbag2_folder(const fs::path& folder) {
-  if (!has_metadata(folder))
-    return std::make_unique<JoinedReader>(files_without_metadata(folder), std::vector<std::string>());
   std::vector<std::string> warnings;
+  if (!has_metadata(folder)) {
+    std::error_code unknown;
+    if (fs::exists(folder / "metadata.yaml", unknown))
+      warnings.push_back("metadata.yaml is not that of a recording: all files of the folder are read");
+    return std::make_unique<JoinedReader>(files_without_metadata(folder), std::move(warnings));
+  }
   std::vector<fs::path> files;
   const std::vector<fs::path> there = recording_files_in(folder);
   try {

@@ -43,14 +43,6 @@ CREATE INDEX timestamp_idx ON messages (timestamp ASC);
 // Minimum duration of a transaction.
 constexpr std::chrono::milliseconds kMinTransaction{50};
 
-// Creates the folder if it does not exist, and returns its path.
-fs::path create_folder(const fs::path& folder) {
-  std::error_code failure;
-  fs::create_directories(folder, failure);
-  if (!fs::is_directory(folder)) throw IoError("cannot create the folder");
-  return folder;
-}
-
 // Returns the folder's name, such as "bag" for "bag" and "bag/".
 std::string name_of(const fs::path& folder) {
   const fs::path whole = fs::absolute(folder).lexically_normal();
@@ -67,7 +59,8 @@ YAML::Node nanoseconds(const char* name, std::int64_t value) {
 
 class Rosbag2Writer::State {
  public:
-  explicit State(const fs::path& folder) : folder_(create_folder(folder)), file_(name_of(folder) + "_0.db3") {
+  explicit State(const fs::path& folder) : folder_(folder), file_(name_of(folder) + "_0.db3") {
+    create_folder(folder);
     if (::access(folder_.c_str(), W_OK | X_OK) != 0) throw IoError(system_reason(errno));
   }
   ~State() { release(); }

@@ -110,6 +110,8 @@ std::vector<GlbVolume> glb_volumes(const VolumeCells& cells, const Eigen::Vector
     std::vector<Eigen::Vector3f>& positions = volumes[cells.vertex_owners[i]].positions;
     number[i] = static_cast<std::uint32_t>(positions.size());
     positions.emplace_back((cells.vertices[i] - origin).cast<float>());
+    if (!positions.back().allFinite())
+      throw std::domain_error("a coordinate is too large for the 32-bit floats of glTF");
   }
   const auto vertex = [&](const Cell& cell, std::size_t i) {
     return number[static_cast<std::size_t>(cell.vertices[i])];

@@ -16,13 +16,18 @@
 namespace pcl_bv::detail {
 namespace {
 
+std::unique_ptr<RecordingReader> open_checked(const std::string& name) {
+  check_recording_content(name);
+  return open_recording(name);
+}
+
 class Recorded final : public FrameSource {
  public:
   Recorded(const std::string& name, const ReplayOptions& options)
       : name_(name),
         options_(options),
-        reader_(open_recording(name)),
-        topic_(cloud_topic(reader_->topics(), options.topic)) {
+        reader_(open_checked(name)),
+        topic_(cloud_topic(*reader_, options.topic)) {
     reader_->select({topic_});
     if (!options_.poses.empty()) poses_ = Poses(options_.poses, count());
   }
@@ -97,11 +102,18 @@ std::unique_ptr<FrameSource> open_recorded(const std::string& name, const Replay
 
 }  // namespace
 
+// Returns whether only the name says that this is a recording: a missing or damaged file.
+bool is_named_recording(const std::filesystem::path& file) {
+  std::error_code unknown;
+  return has_recording_extension(file) && !std::filesystem::is_directory(file, unknown);
+}
+
 std::vector<SourceKind> recording_kinds() {
   return {{"packets of a Velodyne, Hesai, Livox or Ouster (.pcap, .pcapng)", FrameTimes::messages,
            [](const std::string& name) { return is_capture(name); }, open_packets},
           {"a recording (.mcap, .bag, .db3 or its folder)", FrameTimes::messages,
-           [](const std::string& name) { return is_recording(name); }, open_recorded}};
+           [](const std::string& name) { return is_recording(name) || is_named_recording(name); },
+           open_recorded}};
 }
 
 }  // namespace pcl_bv::detail

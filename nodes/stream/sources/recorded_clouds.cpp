@@ -50,10 +50,14 @@ std::string topics_with_types(const std::vector<RecordedTopic>& topics) {
 
 }  // namespace
 
-std::size_t cloud_topic(const std::vector<RecordedTopic>& topics, const std::string& name) {
+std::size_t cloud_topic(const RecordingReader& reader, const std::string& name) {
+  const std::vector<RecordedTopic>& topics = reader.topics();
+  const std::vector<std::string> damage = reader.warning_lines();
+  if (topics.empty() && !damage.empty()) throw IoError("no topic can be read: " + damage.front());
   const std::string clouds = clouds_of(topics);
-  const std::string others =
-      clouds.empty() ? "there are " + topics_with_types(topics) : "those with clouds: " + clouds;
+  const std::string others = topics.empty()   ? "the recording has no topics"
+                             : clouds.empty() ? "there are " + topics_with_types(topics)
+                                              : "those with clouds: " + clouds;
   const auto number = [&](auto found) { return static_cast<std::size_t>(found - topics.begin()); };
   if (!name.empty()) {
     const auto is_named = [&](const RecordedTopic& topic) { return topic.name == name; };
@@ -191,7 +195,7 @@ RecordedClouds::RecordedClouds(const std::filesystem::path& file, const std::str
     return;
   }
   state_->reader = open_recording(file);
-  state_->topic = cloud_topic(state_->reader->topics(), topic);
+  state_->topic = cloud_topic(*state_->reader, topic);
   state_->rewind();
 }
 RecordedClouds::~RecordedClouds() = default;
@@ -213,7 +217,9 @@ RawCloud RecordedClouds::load(std::size_t number) {
   if (const auto stored = state.skipped.extract(number)) return stored.mapped()();
   if (number < state.next) state.rewind();
   for (;;) {
-    if (!state.take()) throw IoError("the recording ends before this cloud");
+    if (!state.take())
+      throw IoError("is not there: only " + std::to_string(state.next) +
+                    " clouds of the recording can be read, and numbers count these");
     if (state.next == number) return state.noted_cloud();
     if (number - state.next > kMaxSkipped) {
       ++state.next;

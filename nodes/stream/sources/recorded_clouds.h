@@ -13,7 +13,7 @@
 #include "pcl_bv/nodes/frame_source.h"
 
 namespace pcl_bv {
-struct RecordedTopic;
+class RecordingReader;
 
 namespace [[gnu::visibility("default")]] detail {
 
@@ -22,8 +22,8 @@ namespace [[gnu::visibility("default")]] detail {
 ///
 /// Throws std::invalid_argument if the named topic does not exist or has no clouds, or if `name` is empty and
 /// several topics have clouds. The message lists the topics that have clouds. Throws IoError if `name` is
-/// empty and no topic has clouds.
-std::size_t cloud_topic(const std::vector<RecordedTopic>& topics, const std::string& name);
+/// empty and no topic has clouds, or if damage of the recording leaves no topic.
+std::size_t cloud_topic(const RecordingReader& reader, const std::string& name);
 
 /// Returns whether the file's first bytes are those of a recording (open_recording()) or of a capture of a
 /// sensor's packets (PacketReader).

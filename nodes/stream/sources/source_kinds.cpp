@@ -35,8 +35,8 @@ NameTimes times_of(std::vector<std::filesystem::path>& files) {
   if (std::all_of(times.stamps.begin(), times.stamps.end(), [](std::int64_t stamp) { return stamp < 0; }))
     throw std::invalid_argument(
         files.front().string() +
-        ": no time in its name nor in any other name; whole numbers are frame numbers, except "
-        "seconds of 2001 to 2033, milli- and microseconds of 2001 to 2262, and "
+        ": no file name has a time, which --stamps name and --rate recorded need; a whole number is the "
+        "number of a frame, except seconds of 2001 to 2033, milli- and microseconds of 2001 to 2262, and "
         "nanoseconds from 1e16 on");
   if (!times.sort) return times;
   std::vector<std::pair<std::int64_t, std::filesystem::path>> sorted;

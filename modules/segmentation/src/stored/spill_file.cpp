@@ -21,10 +21,19 @@ namespace {
                            std::generic_category().message(error));
 }
 
+std::filesystem::path temporary_folder() {
+  std::error_code failure;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(failure);
+  if (!failure) return folder;
+  const char* const given = std::getenv("TMPDIR");
+  fail("use", given == nullptr ? "a folder for temporary files" : std::string("TMPDIR, ") + given,
+       failure.value());
+}
+
 }  // namespace
 
 SpillFile::SpillFile(const std::filesystem::path& given) {
-  const std::filesystem::path folder = given.empty() ? std::filesystem::temp_directory_path() : given;
+  const std::filesystem::path folder = given.empty() ? temporary_folder() : given;
   name_ = "a temporary file in " + folder.string();
   std::string path = (folder / "pcl_bv_XXXXXX").string();
   fd_ = ::mkostemp(path.data(), O_CLOEXEC);
