@@ -461,7 +461,7 @@ TEST_F(BvStream, FrameNumbersAreNotTakenForTimes) {
   ascii("sweeps/000000.pcd", {"1 2 3"});
   const Result result = stream({"--source", at("sweeps"), "--stamps", "name"});
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.err, HasSubstr("000000.pcd: no time in its name"));
+  EXPECT_THAT(result.err, HasSubstr("000000.pcd: no file name has a time"));
   EXPECT_EQ(stream({"--source", at("sweeps"), "--rate", "recorded"}).status, 2);
 }
 

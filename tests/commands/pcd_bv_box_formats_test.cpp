@@ -100,8 +100,8 @@ TEST_F(PcdBv, TilesetsAreUpdatedInTheirFiles) {
   const Result missing = run({"--update", at("tileset.json"), at("none.json")});
   EXPECT_EQ(missing.status, 1);
   EXPECT_EQ(missing.out, at("tileset.json") + ": 0 of 1 tiles updated\n");
-  EXPECT_THAT(missing.err, HasSubstr("tileset.json: a.pnts: cannot be read\n"));
-  EXPECT_THAT(missing.err, HasSubstr("none.json: cannot be read\n"));
+  EXPECT_THAT(missing.err, HasSubstr("tileset.json: a.pnts: no such file or directory\n"));
+  EXPECT_THAT(missing.err, HasSubstr("none.json: no such file or directory\n"));
   EXPECT_EQ(read_file(at("tileset.json")), set);
   const std::string table = R"({"POINTS_LENGTH":1,"POSITION":{"byteOffset":0}})";
   std::string header = "pnts";

@@ -210,7 +210,8 @@ TEST(ParseSink, NamesAllKindsInItsErrors) {
   EXPECT_EQ(both.target, "a,b.mcap");
   EXPECT_TRUE(both.points);
   EXPECT_THAT(both.adapters, testing::ElementsAre("moveit"));
-  EXPECT_EQ(parse_sink("vtp:a,moveit").target, "a,moveit");
+  EXPECT_THROW(parse_sink("vtp:a,moveit"), std::invalid_argument);
+  EXPECT_EQ(parse_sink("vtp:a,moveit/").target, "a,moveit/");
   for (const char* bad : {"", "jsonl", "csv:", "vtp:,points", "vtp:-", "image:-", "xml:a", "json:a", ":a"}) {
     try {
       parse_sink(bad);

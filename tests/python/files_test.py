@@ -111,7 +111,7 @@ class Files(unittest.TestCase):
         path.write_bytes(content)
         with self.assertWarnsRegex(UserWarning, "damaged.mcap: skipped the "):
             pcl_bv.read(path, number=4)
-        with self.assertRaisesRegex(OSError, "ends before this cloud; skipped the "):
+        with self.assertRaisesRegex(OSError, "clouds of the recording can be read, and numbers count these; skipped the "):
             pcl_bv.read(path, number=5)
 
     def test_a_capture_of_two_sensors_is_a_warning(self):

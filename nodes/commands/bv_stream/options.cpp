@@ -5,7 +5,10 @@
 
 #include "options.h"
 
+#include <utility>
+
 #include "commands/shared/command_line.h"
+#include "commands/shared/kitti_boxes.h"
 #include "commands/shared/messages.h"
 #include "commands/shared/output_claims.h"
 #include "commands/shared/setting_options.h"
@@ -88,8 +91,14 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
   for (const RegionConfig& region : options.config.pipeline.filter.regions)
     claims.add_input(region.file);
   if (!options.replay.poses.empty()) claims.add_input(options.replay.poses);
+  bool printed = false;
   for (const SinkOptions& sink : options.sinks) {
     if (sink.kind->live) continue;
+    if (sink.target == "-") {
+      if (std::exchange(printed, true))
+        throw UsageError("--sink: more than one result would be written to standard output");
+      continue;
+    }
     const std::string_view files = sink.kind->files;
     claims.claim(files.empty() ? sink.target : sink.target / ("frame000000" + std::string(files)));
     if (files == ".pcd") claims.reject_input(sink.target);  // the source would read the clouds of the sink
@@ -135,8 +144,13 @@ void read_replay(const CommandLine& line, const Texts& t, StreamOptions& options
     throw UsageError(
         "--stamps rate: not with --target-frame, because transforms have the times of the recording");
   replay.topic = t.topic;
-  if (line.given("--topic") && times != FrameTimes::messages)
+  if (line.given("--topic") && times != FrameTimes::messages) {
+    std::error_code unknown;
+    for (const std::string& source : options.sources)
+      if (times == FrameTimes::names && !std::filesystem::exists(source, unknown))
+        throw IoError(source + ": no such file or folder");
     throw UsageError("--topic: only useful with a recording");
+  }
   if (line.given("--bin-fields")) replay.bin_fields = parse_bin_fields(t.bin_fields);
 }
 
@@ -157,6 +171,8 @@ StreamOptions to_options(const CommandLine& line, const Texts& t, const std::str
     options.replay.class_field = field->name;
   for (const std::string& sink : line.given("--sink") ? t.sinks : std::vector<std::string>{"jsonl:-"})
     options.sinks.push_back(parse_with("--sink", sink, parse_sink));
+  for (const SinkOptions& sink : options.sinks)
+    if (sink.kind->name == "kitti") check_kitti_boxes("--sink kitti", options.config.pipeline);
   if (line.given("--stats")) options.stats = t.stats;
   if (line.given("--report"))
     options.report_seconds = number("--report", t.report, 0.001, 1e6, "seconds from 0.001 to 1000000");

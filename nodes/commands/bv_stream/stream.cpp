@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <map>
+#include <memory>
 #include <string>
 #include <thread>
 
@@ -198,6 +200,22 @@ std::string named(const Frame& frame, const std::string& what) {
   return file + "frame " + std::to_string(frame.header.seq) + ": " + what;
 }
 
+// Reports a problem of many frames ten times: an hour of the same problem would fill a disk with its lines.
+class FrameProblems {
+ public:
+  void report(const Frame& frame, const std::string& problem) {
+    if (counts_.size() > 1000) counts_.clear();  // problems with numbers, which differ from frame to frame
+    std::size_t& count = counts_[frame.file + ": " + problem];
+    if (count == kMaxLines) return;
+    const bool last = ++count == kMaxLines;
+    report_problem(named(frame, problem) + (last ? " (other frames with this problem are not listed)" : ""));
+  }
+
+ private:
+  static constexpr std::size_t kMaxLines = 10;
+  std::map<std::string, std::size_t> counts_;
+};
+
 // Points of one sweep of a sensor with 64 beams.
 constexpr std::size_t points_of_a_sweep = 131'072;
 
@@ -219,8 +237,9 @@ StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, 
     out_of_range = !range.empty();
     progress.show(frame.header.seq, result.clusters.size(), result.ms.total);
   };
-  callbacks.on_lost = [&](const Frame& frame, Loss loss, const std::string& reason) {
-    if (loss == Loss::error) report_problem(named(frame, reason));
+  callbacks.on_lost = [&sinks, problems = std::make_shared<FrameProblems>()](const Frame& frame, Loss loss,
+                                                                             const std::string& reason) {
+    if (loss == Loss::error) problems->report(frame, reason);
     sinks.write_lost(frame, reason);
   };
   callbacks.on_silence = [](double seconds) {
@@ -257,7 +276,10 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   stats.sinks = sinks.times();
   report_dropped_frames(stats.frames, reader.without_pose);
   if (errors_go_to_a_terminal()) report(stats);  // scripts do not get the report
-  const bool nothing_read = stats.frames.in > 0 && stats.frames.in == stats.frames.dropped_error;
+  const bool no_frame = stats.frames.in == 0 && options.rate != Rate::live && !interrupted && sinks.alive();
+  if (no_frame) report_problem(name_of(options) + ": has no cloud");
+  const bool nothing_read =
+      no_frame || (stats.frames.in > 0 && stats.frames.in == stats.frames.dropped_error);
   int status = sinks.failed() || reader.failed || nothing_read ? 1 : 0;
   try {
     if (options.stats) {

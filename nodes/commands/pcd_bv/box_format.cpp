@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "commands/shared/kitti_boxes.h"
 #include "commands/shared/messages.h"
 #include "commands/shared/values.h"
 #include "pipeline/config/names.h"
@@ -62,25 +63,20 @@ std::string checked_object_type(const std::string& type, OutputFormat format) {
 }
 
 void check_box_format(const std::string& name, const Options& options) {
-  const bool kitti = is_kitti(options.format), tiles = options.format == OutputFormat::tiles;
+  const bool tiles = options.format == OutputFormat::tiles;
   const bool regions = options.format == OutputFormat::tile_regions;
   if (!tiles && !regions && !box_label_format(options.format)) return;
   const std::string format = "--format " + name;
   if (options.origin.requested) throw UsageError("--origin: cannot be combined with " + format);
-  const Eigen::Vector3d& up = options.pipeline.ground.up;
-  if (kitti && (up.x() != 0 || up.y() != 0 || up.z() < 0))
-    throw UsageError(format + ": boxes rotate only about z, so --up must be z");
+  if (is_kitti(options.format)) return check_kitti_boxes(format, options.pipeline);
   const std::vector<const Method*> methods = options.pipeline.methods();
   const bool any = std::any_of(methods.begin(), methods.end(), [&](const Method* m) {
-    return m->shape == "aabb" || (!regions && m->shape == "obb" && (m->upright || !kitti)) ||
-           (tiles && m->shape == "sphere");
+    return m->shape == "aabb" || (!regions && m->shape == "obb") || (tiles && m->shape == "sphere");
   });
   if (any) return;
   if (regions) throw UsageError(format + ": needs --volume aabb");
-  throw UsageError(format + ": needs boxes: --volume obb-yaw, obb-lshape" +
-                   (kitti   ? " or aabb"
-                    : tiles ? ", obb, aabb or sphere"
-                            : ", obb or aabb"));
+  throw UsageError(format + ": needs boxes: --volume obb-yaw, obb-lshape, obb" +
+                   (tiles ? ", aabb or sphere" : " or aabb"));
 }
 
 }  // namespace pcl_bv::detail

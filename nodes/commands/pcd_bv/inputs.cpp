@@ -112,8 +112,10 @@ Job merged_job(const Options& options, std::vector<Job> inputs, std::shared_ptr<
   if (tiles) {
     job.tiles = std::move(tiles);
   } else if (options.merge) {
-    for (const Job& input : inputs)
+    for (const Job& input : inputs) {
+      if (input.error) throw IoError(input.input + ": " + *input.error);
       job.partials.push_back(input.input);
+    }
   } else {
     job.tiles = open_tiles(std::move(inputs), options.pipeline.execution().parallel);
   }

@@ -54,10 +54,11 @@ struct Texts {
 };
 
 void declare(CommandLine& line, Texts& texts, PcdBvCommand command) {
-  line.option("INPUT", texts.inputs, "",
-              ".pcd, .ply, .las, .laz, .bin, .npy, .npz, .xyz, .csv, .txt\nfiles, folders of the first five, "
-              "synth:NAME[:POINTS[:SEED]],\n"
-              "recordings (.mcap, .bag, .db3 or its folder)");
+  line.option(
+      "INPUT", texts.inputs, "",
+      ".pcd, .ply, .las, .laz, .bin, .npy, .npz, .xyz, .csv, .txt,\n.asc, .pts files, folders of the "
+      "first five,\nsynth:NAME[:POINTS[:SEED]], recordings (.mcap, .bag, .db3 or\nits folder), packets "
+      "(.pcap, .pcapng)");
   line.option("--bin-fields", texts.bin_fields, "N", "Floats of a point of .bin files (4, or 5 of .pcd.bin)");
   line.option(
       "--columns", texts.columns, "LIST",

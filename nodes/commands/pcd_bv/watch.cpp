@@ -7,6 +7,7 @@
 #include <sys/inotify.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
@@ -90,6 +91,9 @@ class Watch {
     job = plan_jobs(options_, {job}).front();
     job.frame = files_++;
     Result result = do_job(job, options_, pipeline_);
+    // Some programs change the mode of a file after they have closed it, such as Python's shutil.copy().
+    for (int tries = 0; tries < 3 && changed_meanwhile(result); ++tries)
+      result = do_job(job, options_, pipeline_);
     for (const std::string& message : result.messages)
       print_message(message);
     status = worse(status, result.status);
@@ -107,6 +111,14 @@ class Watch {
   Status status = Status::done;
 
  private:
+  static bool changed_meanwhile(const Result& result) {
+    const auto says_so = [](const std::string& message) {
+      return message.find(kChangedWhileRead) != std::string::npos;
+    };
+    return result.status == Status::failed && !result.partly_written &&
+           std::any_of(result.messages.begin(), result.messages.end(), says_so);
+  }
+
   const Options& options_;
   const fs::path folder_;
   FramePipeline pipeline_;

@@ -109,7 +109,8 @@ void CommandLine::option(const char* name, std::vector<std::string>& values, con
                          const std::string& help) {
   CLI::Option* const option = app_->add_option(name, values, wrapped(help))->type_name(type);
   // An option takes only one value, because the next argument may be an input.
-  if (name[0] == '-') option->allow_extra_args(false);
+  if (name[0] == '-')
+    option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(false);
 }
 
 void CommandLine::flag(const char* name, bool& value, const std::string& help) {
@@ -123,6 +124,11 @@ std::optional<std::string> CommandLine::parse(int argc, const char* const* argv)
     reject_empty_values(*app_);
   } catch (const CLI::CallForHelp&) {
     return app_->help();
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string text = error.what();
+    const std::size_t repeated = text.find(": At Most 1 required");
+    throw UsageError(text.substr(0, repeated) + (repeated < text.size() ? ": is given more than once" : "") +
+                     "; " + app_->get_name() + " --help lists the options");
   } catch (const CLI::ParseError& error) {
     throw UsageError(error.what() + ("; " + app_->get_name() + " --help lists the options"));
   }

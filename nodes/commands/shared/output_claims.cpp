@@ -14,8 +14,9 @@ namespace fs = std::filesystem;
 
 fs::path identity(const fs::path& path) {
   std::error_code unknown;
-  const fs::path canonical = fs::weakly_canonical(path, unknown);
-  return unknown ? fs::absolute(path).lexically_normal() : canonical;
+  const fs::path whole = fs::absolute(path, unknown);  // the path of a missing file would stay relative
+  const fs::path canonical = fs::weakly_canonical(whole, unknown);
+  return unknown ? whole.lexically_normal() : canonical;
 }
 
 }  // namespace
@@ -24,6 +25,11 @@ bool is_device(const fs::path& file) {
   std::error_code unknown;
   const fs::file_status status = fs::status(file, unknown);
   return fs::exists(status) && fs::is_other(status);
+}
+
+void reject_standard_output(const fs::path& output) {
+  if (output == "-")
+    throw UsageError("-: is not a file; use /dev/stdout for standard output, ./- for a file of this name");
 }
 
 void OutputClaims::add_input(const fs::path& file) {
@@ -36,6 +42,7 @@ void OutputClaims::reject_input(const fs::path& output) const {
 }
 
 void OutputClaims::claim(const fs::path& output) {
+  reject_standard_output(output);
   reject_input(output);
   const fs::path file = identity(output);
   if (!taken_.insert(file).second && !is_device(file)) {

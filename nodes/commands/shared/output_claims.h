@@ -13,6 +13,9 @@ namespace pcl_bv::detail {
 /// written.
 bool is_device(const std::filesystem::path& file);
 
+/// Throws UsageError for `-`, which other programs take for standard output.
+void reject_standard_output(const std::filesystem::path& output);
+
 /// The inputs and outputs of a command. Files are compared by canonical path, so links do not matter.
 class OutputClaims {
  public:
@@ -21,8 +24,8 @@ class OutputClaims {
   /// Throws UsageError if the file or folder is an input.
   void reject_input(const std::filesystem::path& output) const;
 
-  /// Registers an output. Throws UsageError if it is an input, or if it is already registered and not a
-  /// device.
+  /// Registers an output. Throws UsageError if it is `-` or an input, or if it is already registered and not
+  /// a device.
   void claim(const std::filesystem::path& output);
 
   /// Registers a folder for several outputs. Also throws UsageError if an input is in the folder.

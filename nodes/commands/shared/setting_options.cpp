@@ -10,6 +10,7 @@
 
 #include "messages.h"
 #include "pipeline/config/check.h"
+#include "pipeline/config/rows.h"
 #include "pipeline/config/settings.h"
 #include "values.h"
 
@@ -52,12 +53,13 @@ std::string option_of(const Setting& setting) {
 
 // Returns the help of an option: one line, with the choices and the default, for each setting that the option
 // sets.
-std::string help_of(std::string_view option, const StreamConfig& defaults) {
+std::string help_of(std::string_view option, const StreamConfig& defaults, bool stream) {
   std::string help;
   visit_stream(defaults, [&](const Setting& setting, const auto& value) {
     if (setting.option != option) return;
     help.append(help.empty() ? "" : "\n").append(setting.help);
-    if (std::is_enum_v<std::decay_t<decltype(value)>>) help.append(": ").append(setting.unit);
+    if (std::is_enum_v<std::decay_t<decltype(value)>>)
+      help.append(": ").append(!stream && setting.key == "cluster.refine" ? "auto, off, neck" : setting.unit);
     help += " (" + shown_default(setting, to_text(value)) + ")";
   });
   return help;
@@ -103,7 +105,7 @@ SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, 
       line.flag(setting.option.data(), flags_[setting.option], std::string(setting.help));
     } else if (!setting.placeholder.empty()) {
       line.option(setting.option.data(), texts_[setting.option], setting.placeholder.data(),
-                  help_of(setting.option, defaults_));
+                  help_of(setting.option, defaults_, stream_));
     }
   };
   visit_stream(defaults, declare);
@@ -134,6 +136,8 @@ void SettingOptions::apply(StreamConfig& config) const {
   for (RegionConfig& region : filter.regions) {
     if (line_.given("--padding"))
       parse_with("--padding", padding_, [&](const std::string& text) { read_text(text, region.padding); });
+    if (line_.given("--padding") && !(region.padding >= 0 && region.padding <= kMaxPadding))
+      reject_value("--padding", padding_, "is not a length from 0 to 1e100");
   }
 }
 
@@ -144,6 +148,8 @@ void SettingOptions::reject_useless(const PipelineConfig& config) const {
   };
   const bool clusters = config.cluster.tolerance > 0 || line_.given("--cluster");
   reject("--padding", !config.filter.regions.empty(), "--drop-inside or --keep-inside");
+  if (!stream_ && line_.given("--refine") && config.cluster.refine == Refine::tracks)
+    reject_value("--refine", "tracks", "needs the tracks of a stream; here it is auto, off or neck");
   const bool ground = config.ground.method != GroundMethod::none || line_.given("--ground");
   for (const char* option : {"--min-size", "--max-size", "--min-points", "--oversized", "--refine", "--class",
                              "--min-extent", "--max-extent"})

@@ -20,6 +20,7 @@ namespace pcl_bv::detail {
 
 void prepare_standard_streams() {
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit of `ulimit -f` fails instead
   for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
     if (fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) continue;
     // /dev/null is opened for the wrong direction, so that writing to a standard output that was closed at

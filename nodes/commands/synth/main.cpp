@@ -9,6 +9,7 @@
 
 #include "commands/shared/command_line.h"
 #include "commands/shared/interruption.h"
+#include "commands/shared/output_claims.h"
 #include "commands/shared/run_command.h"
 #include "commands/shared/values.h"
 #include "pcl_bv/io/atomic_file.h"
@@ -31,9 +32,10 @@ constexpr std::string_view sequence_name = "street-sequence";
 std::string footer() {
   return "Scenes: " + synth_names() +
          "\n\n"
-         "For street, POINTS counts rays (a multiple of 64, one row per beam; no return: 0,0,0), and the "
-         "uint32\n"
-         "fields object (0: none) and ground (1: ground) say what each point is. A sequence is written as\n"
+         "For street, POINTS counts rays (rounded to a multiple of 64, one row per beam; no return: "
+         "0,0,0),\n"
+         "and the uint32 fields object (0: none) and ground (1: ground) say what each point is. A sequence "
+         "is written as\n"
          "OUT/0000000000.pcd, OUT/0000000001.pcd, ... at ten sweeps a second. Same NAME:POINTS:SEED, same "
          "points.\n\n"
          "rural-road is a road over hills with grass, ditches, bridges and traffic. The sensor has 64 beams\n"
@@ -64,7 +66,7 @@ std::string footer() {
          "  synth rig:100 rig.mcap                   10 s of two LiDARs\n"
          "  synth town:64 tiles                      8 x 8 tiles, 13 million points\n"
          "  synth town-objects:100:7:500000 tiles    10 x 10 tiles, seed 7, denser\n\n"
-         "Exit status: 0 done, 1 output not written, 2 wrong use.\n";
+         "Exit status: 0 done, 1 output not written, 2 wrong use, 128 + N ended by the signal N.\n";
 }
 
 std::string frame_name(std::size_t frame) {
@@ -79,15 +81,13 @@ void naming(const std::filesystem::path& path, Write write) {
     write();
   } catch (const IoError& error) {
     throw IoError(path.string() + ": " + error.what());
-  } catch (const std::filesystem::filesystem_error& error) {
-    throw IoError(path.string() + ": " + error.code().message());
   } catch (const std::bad_alloc&) {
     throw IoError(path.string() + ": not enough memory for so many points");
   }
 }
 
 void write_sequence(const StreetSequenceOptions& spec, const std::filesystem::path& folder) {
-  naming(folder, [&] { std::filesystem::create_directories(folder); });
+  naming(folder, [&] { create_folder(folder); });
   StreetOptions options;
   options.seed = spec.seed;
   for (std::size_t frame = 0; frame < spec.frames; ++frame) {
@@ -97,7 +97,7 @@ void write_sequence(const StreetSequenceOptions& spec, const std::filesystem::pa
 }
 
 void write_sequence(const RuralRoadSequenceOptions& spec, const std::filesystem::path& folder) {
-  naming(folder, [&] { std::filesystem::create_directories(folder); });
+  naming(folder, [&] { create_folder(folder); });
   std::string poses, truth;
   for (std::size_t number = 0; number < spec.frames; ++number) {
     const std::filesystem::path path = folder / frame_name(number);
@@ -112,6 +112,11 @@ void write_sequence(const RuralRoadSequenceOptions& spec, const std::filesystem:
   naming(folder / "truth.jsonl", [&] { write_file_atomically(folder / "truth.jsonl", truth); });
 }
 
+void require_suffix(const std::filesystem::path& output, const char* suffix) {
+  if (lower_case_extension(output) != suffix && !is_device(output))
+    reject_value("OUT", output.string(), std::string("is no ") + suffix + " file");
+}
+
 void write_scene(const std::string& scene, const std::filesystem::path& output) {
   if (scene.substr(0, scene.find(':')) == sequence_name) {
     write_sequence(parse_street_sequence(scene), output);
@@ -119,16 +124,18 @@ void write_scene(const std::string& scene, const std::filesystem::path& output) 
     write_sequence(parse_rural_road_sequence(scene), output);
   } else if (is_rig_sequence(scene)) {
     const RigSequence spec = parse_rig_sequence(scene);
+    require_suffix(output, ".mcap");
     naming(output, [&] {
       create_parent_folders(output);
       write_rig_recording(spec, output);
     });
   } else if (is_town(scene)) {
     const TownSequence spec = parse_town(scene);
-    naming(output, [&] { std::filesystem::create_directories(output); });
+    naming(output, [&] { create_folder(output); });
     write_town(spec, output);
   } else {
     const SynthOptions spec = parse_synth(scene);
+    require_suffix(output, ".pcd");
     naming(output, [&] {
       create_parent_folders(output);
       write_pcd(output, to_raw_cloud(make_synth(spec)));
@@ -146,6 +153,7 @@ int run(int argc, char** argv) {
   line.option("OUT", output, "", "The .pcd file; the folder of a sequence or town; the .mcap file of rig");
   if (const auto text = line.parse(argc, argv)) return print_text(*text);
   if (!line.given("OUT")) throw UsageError("no SCENE or no OUT; synth --help lists the options");
+  reject_standard_output(output);
   const Interruption interruption([] {});
   try {
     write_scene(scene, output);

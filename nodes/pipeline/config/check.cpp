@@ -163,7 +163,7 @@ std::string detail::problem_of(const Setting& setting, const std::string& text) 
   try {
     static_cast<void>(UsableIsa(parse_isa(text)));
   } catch (const std::invalid_argument& error) {
-    return error.what();
+    return (text == "auto" ? "PCL_BV_ISA in the environment: " : "") + std::string(error.what());
   }
   return {};
 }

@@ -30,6 +30,8 @@ constexpr RowNames row_names() {
   return {"a class", "classes", "{value: 4, tolerance: 0.5}"};
 }
 
+constexpr double kMaxPadding = 1e100;  // metres
+
 /// Calls visit(setting, value) for each field of a row, as visit_stream() does for settings.
 template <typename Row, typename Visit>
 void visit_row(Row& row, Visit&& visit) {
@@ -37,7 +39,7 @@ void visit_row(Row& row, Visit&& visit) {
   if constexpr (std::is_same_v<std::remove_const_t<Row>, RegionConfig>) {
     visit(S{"file", "", ""}, row.file);
     visit(S{"keep", "", ""}, row.keep);
-    visit(S{"padding", "m", "", {0, 1e100}}, row.padding);
+    visit(S{"padding", "m", "", {0, kMaxPadding}}, row.padding);
   } else if constexpr (std::is_same_v<std::remove_const_t<Row>, RigSensor>) {
     visit(S{"topic", "", ""}, row.topic);
     visit(S{"frame", "", ""}, row.frame);

@@ -20,9 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const SinkOptions& with_created_folder(const SinkOptions& description) {
-  std::error_code failure;
-  fs::create_directories(description.target, failure);
-  if (!fs::is_directory(description.target)) throw IoError("cannot create this folder");
+  create_folder(description.target);
   return description;
 }
 

@@ -25,6 +25,20 @@ std::string take_option(const SinkKind& kind, std::string& target) {
   return option.substr(1);
 }
 
+// Throws std::invalid_argument if the target, without its options, ends with a comma and a word: a mistyped
+// option would become a part of the file name.
+void reject_unknown_option(const SinkKind& kind, const std::string& target) {
+  const std::size_t comma = target.rfind(',');
+  const std::size_t options = kind.target.find("[,");
+  if (comma == std::string::npos || options == std::string_view::npos) return;
+  const std::string word = target.substr(comma + 1);
+  if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") !=
+      std::string::npos)
+    return;
+  throw std::invalid_argument(std::string(kind.name) + ": '" + word + "' is not one of its options " +
+                              std::string(kind.target.substr(options)));
+}
+
 class FunctionSink : public FrameSink {
  public:
   explicit FunctionSink(std::function<void(const Frame&, const FrameResult&)> on_result)
@@ -95,8 +109,9 @@ SinkOptions parse_sink(const std::string& description) {
         options.adapters.insert(options.adapters.begin(), option);
       }
     }
+    reject_unknown_option(kind, target);
     options.target = target;
-    const bool may_be_printed = kind.files.empty() && !kind.live;
+    const bool may_be_printed = kind.target == "FILE";  // lines of text
     if (!target.empty() && (may_be_printed || target != "-")) return options;
   }
   throw std::invalid_argument("'" + description + "' is not " + sink_syntax());

@@ -94,7 +94,7 @@ struct SinkOptions {
 };
 
 /// Parses a description in the syntax of sink_syntax(); opens nothing. Throws std::invalid_argument for any
-/// other text.
+/// other text, also if an option is mistyped: a comma and a word at the end are an option.
 SinkOptions parse_sink(const std::string& description);
 
 /// Opens a sink.
