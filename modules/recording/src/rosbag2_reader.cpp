@@ -172,7 +172,7 @@ std::vector<fs::path> files_without_metadata(const fs::path& folder) {
 
 fs::path temporary_folder() {
   std::error_code failure;
-  const fs::path folder = fs::temp_directory_path(failure);
+  fs::path folder = fs::temp_directory_path(failure);
   if (failure) throw IoError("no folder for temporary files (TMPDIR): " + system_reason(failure.value()));
   return folder;
 }

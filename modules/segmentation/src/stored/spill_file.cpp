@@ -23,7 +23,7 @@ namespace {
 
 std::filesystem::path temporary_folder() {
   std::error_code failure;
-  const std::filesystem::path folder = std::filesystem::temp_directory_path(failure);
+  std::filesystem::path folder = std::filesystem::temp_directory_path(failure);
   if (!failure) return folder;
   const char* const given = std::getenv("TMPDIR");
   fail("use", given == nullptr ? "a folder for temporary files" : std::string("TMPDIR, ") + given,
