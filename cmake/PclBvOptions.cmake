@@ -53,14 +53,15 @@ if(NOT "nodes" IN_LIST PCL_BV_COMPONENTS)
   set(PCL_BV_BUILD_BENCHMARKS OFF)
 endif()
 
-if(NOT PCL_BV_STREAMS)
+if(NOT PCL_BV_STREAMS AND "nodes" IN_LIST PCL_BV_COMPONENTS)
   foreach(component dds draco live pcl python ros1)
     if(component IN_LIST PCL_BV_COMPONENTS)
-      message(FATAL_ERROR "PCL_BV_STREAMS is OFF, but the component '${component}' needs streams")
+      message(FATAL_ERROR "PCL_BV_STREAMS is OFF, but the component '${component}' needs streams: use -DPCL_BV_COMPONENTS=nodes")
     endif()
   endforeach()
   if(PCL_BV_BUILD_TESTS OR PCL_BV_BUILD_BENCHMARKS OR PCL_BV_INSTALL)
-    message(FATAL_ERROR "PCL_BV_STREAMS is OFF, but tests, benchmarks and installed libraries need streams")
+    message(FATAL_ERROR "PCL_BV_STREAMS is OFF, but tests, benchmarks and installed libraries need streams: use "
+                        "-DPCL_BV_BUILD_TESTS=OFF -DPCL_BV_BUILD_BENCHMARKS=OFF -DPCL_BV_INSTALL=OFF")
   endif()
 endif()
 

@@ -55,7 +55,7 @@ function(pcl_bv_unity target)
   endif()
 endfunction()
 
-# What pcl_bv_library() and programs have in common: all begin with one precompiled header, so they need the same options.
+# Compiles a target as pcl_bv_library() does: targets share one precompiled header only if they have the same options.
 function(pcl_bv_compile_as_library target)
   pcl_bv_compile_options(${target})
   # What public headers declare is visible (an attribute of their namespace); the rest is nobody's interface.

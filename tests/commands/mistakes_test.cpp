@@ -53,6 +53,8 @@ TEST_F(Mistakes, OneFileUnderTwoSpellingsIsRefusedForTwoResults) {
   EXPECT_EQ(frames_to({"jsonl:a"}, {"--stats", "./a"}).status, 2);
   EXPECT_EQ(frames_to({"vtp:w", "vtp:./w"}).status, 2);
   EXPECT_EQ(frames_to({"jsonl:-", "csv:-"}).status, 2);
+  fs::create_symlink("target", at("link"));
+  EXPECT_EQ(frames_to({"jsonl:link", "csv:target"}).status, 2);
   fs::current_path(before);
   EXPECT_FALSE(fs::exists(at("x.pcd")));
   EXPECT_FALSE(fs::exists(at("a")));
@@ -67,7 +69,9 @@ TEST_F(Mistakes, ADashIsNoFile) {
     EXPECT_THAT(result.err, HasSubstr("-: is not a file; use /dev/stdout for standard output"));
   }
   for (const char* sink : {"mcap:-", "rosbag2:-", "vtp:-"})
-    EXPECT_EQ(frames_to({sink}).status, 2) << sink;
+    EXPECT_THAT(frames_to({sink}).err, HasSubstr("only jsonl, csv and kitti write to standard output"))
+        << sink;
+  EXPECT_THAT(run({"--image", "-", cloud}).err, HasSubstr("-: is not a file"));
   EXPECT_EQ(frames_to({"csv:-"}).status, 0);
   EXPECT_FALSE(fs::exists("-"));
 }
@@ -115,14 +119,19 @@ TEST_F(Mistakes, ARecordingThatIsCutOffBeforeItsCloudsIsDamaged) {
   const std::string half = file("half.mcap", std::string_view(whole).substr(0, 100'000));
   const Result streamed = stream({"--source", half, "--topic", "/front/points"});
   EXPECT_EQ(streamed.status, 1) << streamed.err;
-  EXPECT_THAT(streamed.err, HasSubstr("half.mcap: has no cloud"));
+  EXPECT_THAT(streamed.err, HasSubstr("half.mcap: no cloud"));
 }
 
 TEST_F(Mistakes, TheSameProblemOfAllFramesIsListedTenTimes) {
   const Result result = stream({"--source", rig(), "--topic", "/front/points", "--class", "foo"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_EQ(result.error_lines(), 10U) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("other frames with this problem are not listed"));
+  EXPECT_EQ(result.error_lines(), 11U) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("more frames have this problem: there is no field 'foo'"));
+  EXPECT_EQ(run({"street-sequence:12", at("sweeps")}, {.program = "synth"}).status, 0);
+  EXPECT_EQ(stream({"--source", at("sweeps"), "--class", "foo"}).error_lines(), 11U);
+  const Result nowhere = stream({"--source", at("rig.mcap"), "--target-frame", "nope"});
+  EXPECT_EQ(nowhere.status, 1);
+  EXPECT_LE(nowhere.error_lines(), 14U) << nowhere.err;
 }
 
 TEST_F(Mistakes, TheSettingThatIsWrongIsNamed) {
@@ -137,8 +146,7 @@ TEST_F(Mistakes, TheSettingThatIsWrongIsNamed) {
   const Result tracks = run({"--cluster", "1", "--refine", "tracks", cloud});
   EXPECT_EQ(tracks.status, 2);
   EXPECT_THAT(tracks.err, HasSubstr("--refine: 'tracks' needs the tracks of a stream"));
-  EXPECT_THAT(run({"--cluster", "1", "--cluster", "2", cloud}).err,
-              HasSubstr("--cluster: is given more than"));
+  EXPECT_THAT(run({"--cluster", "1", "--cluster", "2", cloud}).err, HasSubstr("--cluster: given more than"));
   fs::create_directory(at("empty"));
   EXPECT_THAT(run({"--merge", at("empty")}).err, HasSubstr("no file of partial results in this folder"));
   EXPECT_THAT(run({"--config", at("gone.yaml"), cloud}).err, HasSubstr("gone.yaml: no such file or"));
@@ -187,6 +195,8 @@ TEST_F(Mistakes, ACloudOfSynthHasTheSuffixOfItsFormat) {
     EXPECT_FALSE(fs::exists(at(output)));
   }
   EXPECT_EQ(run({"box", "/dev/null"}, {.program = "synth"}).status, 0);
+  EXPECT_EQ(run({"box", "/dev/stdout"}, {.program = "synth", .output = at("b.pcd")}).status, 0);
+  EXPECT_EQ(run({at("b.pcd")}).status, 0);
 }
 
 TEST_F(Mistakes, ACoordinateBeyondTheFloatsOfGltfIsNamed) {

@@ -211,8 +211,12 @@ TEST(ParseSink, NamesAllKindsInItsErrors) {
   EXPECT_TRUE(both.points);
   EXPECT_THAT(both.adapters, testing::ElementsAre("moveit"));
   EXPECT_THROW(parse_sink("vtp:a,moveit"), std::invalid_argument);
+  EXPECT_THROW(parse_sink("mcap:a,nav-2"), std::invalid_argument);
+  EXPECT_THROW(parse_sink("vtp:a,"), std::invalid_argument);
+  EXPECT_THROW(parse_sink("vtp:-"), std::invalid_argument);
   EXPECT_EQ(parse_sink("vtp:a,moveit/").target, "a,moveit/");
-  for (const char* bad : {"", "jsonl", "csv:", "vtp:,points", "vtp:-", "image:-", "xml:a", "json:a", ":a"}) {
+  EXPECT_EQ(parse_sink("vtp:a,2026").target, "a,2026");
+  for (const char* bad : {"", "jsonl", "csv:", "vtp:,points", "xml:a", "json:a", ":a"}) {
     try {
       parse_sink(bad);
       FAIL() << bad;

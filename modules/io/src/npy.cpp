@@ -132,7 +132,7 @@ void read_record_type(PythonText& text, RawCloud& cloud) {
   }
 }
 
-constexpr std::size_t kManyColumns = 32;  // rarely of a point, but often of an array that is transposed
+constexpr std::size_t kManyColumns = 16;  // more of them, for few points, suggest a transposed array
 
 // Makes fields of the columns of numbers.
 void add_columns(const PointField& number, std::size_t columns, RawCloud& cloud) {
@@ -196,7 +196,7 @@ NpyHeader parse_npy_header(std::string_view start) {
     if (header.by_column && shape->size() > 2)
       invalid_npy("organised clouds in Fortran's order are not supported");
     add_columns(*number, shape->back(), cloud);
-    if (shape->size() == 2 && shape->front() <= 4 && shape->back() > kManyColumns)
+    if (shape->size() == 2 && shape->front() >= 3 && shape->front() <= 8 && shape->back() > kManyColumns)
       add_note(cloud, std::to_string(shape->front()) + " points with " + std::to_string(shape->back()) +
                           " columns: if the array has a column for each point, store its transpose");
     shape->pop_back();

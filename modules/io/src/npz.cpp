@@ -124,7 +124,7 @@ const ZipEntry& cloud_entry(const std::vector<ZipEntry>& entries) {
   for (const ZipEntry& entry : entries)
     names += (names.empty() ? "" : ", ") + entry.name;
   if (entries.empty()) throw IoError("has no array");
-  throw IoError("none of its arrays has one of the names " + known + ": " + in_quotes(names));
+  throw IoError("its arrays are " + in_quotes(names) + "; one must have a name of " + known);
 }
 
 void require_crc(const ZipEntry& entry, const std::string& array) {

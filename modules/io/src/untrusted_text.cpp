@@ -12,6 +12,7 @@
 namespace pcl_bv::detail {
 namespace {
 
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // of UTF-8, which some editors write
 constexpr std::string_view kSpace = " \t\r\n";
 constexpr std::string_view kEndsScalar = "\"[]{} \t\r\n";
 
@@ -39,12 +40,12 @@ std::string read_untrusted_text(const std::filesystem::path& path, std::size_t m
     text.resize(before + static_cast<std::size_t>(stream.gcount()));
   }
   if (stream.bad()) throw IoError("cannot be read");
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // a byte order mark, which editors may write
   if (text.size() > max_bytes) throw IoError("has more than " + std::to_string(max_bytes) + " bytes");
   return text;
 }
 
 std::string_view next_json_value(std::string_view text, std::size_t& at) {
+  if (at == 0 && text.starts_with(kByteOrderMark)) at = kByteOrderMark.size();
   at = std::min(text.find_first_not_of(kSpace, at), text.size());
   const std::size_t begin = at;
   int depth = 0;

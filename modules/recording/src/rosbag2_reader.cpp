@@ -221,7 +221,8 @@ std::unique_ptr<RecordingReader> open_rosbag2_folder(const fs::path& folder) {
   if (!has_metadata(folder)) {
     std::error_code unknown;
     if (fs::exists(folder / "metadata.yaml", unknown))
-      warnings.push_back("metadata.yaml is not that of a recording: all files of the folder are read");
+      warnings.push_back(
+          "metadata.yaml is not that of a recording: all .db3 and .mcap files of the folder are read");
     return std::make_unique<JoinedReader>(files_without_metadata(folder), std::move(warnings));
   }
   std::vector<fs::path> files;

@@ -28,8 +28,8 @@ constexpr const char* examples = R"(Examples:
   bv_stream --source drive.mcap --track --sink ws:8765      then open http://localhost:8765/
 
 Exit status: 0 done, also after SIGINT, SIGTERM or SIGHUP, which let the frames in the queue be
-done first (a second one ends at once, with 128 + its number); 1 no readable source or poses, or an
-output not written; 2 wrong use or a bad configuration.
+done first (a second one ends at once, with 128 + its number); 1 a source without a readable cloud,
+another unreadable input, or an output not written; 2 wrong use or a bad configuration.
 PCL_BV_ISA in the environment sets the default of --isa.)";
 
 struct Texts {

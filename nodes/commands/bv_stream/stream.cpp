@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
@@ -200,19 +201,22 @@ std::string named(const Frame& frame, const std::string& what) {
   return file + "frame " + std::to_string(frame.header.seq) + ": " + what;
 }
 
-// Reports a problem of many frames ten times: an hour of the same problem would fill a disk with its lines.
+// Reports each problem for at most ten frames, so that a long stream does not fill the disk. Problems that
+// differ only in numbers are one problem.
 class FrameProblems {
  public:
   void report(const Frame& frame, const std::string& problem) {
-    if (counts_.size() > 1000) counts_.clear();  // problems with numbers, which differ from frame to frame
-    std::size_t& count = counts_[frame.file + ": " + problem];
-    if (count == kMaxLines) return;
-    const bool last = ++count == kMaxLines;
-    report_problem(named(frame, problem) + (last ? " (other frames with this problem are not listed)" : ""));
+    if (counts_.size() > 1000) counts_.clear();
+    std::string kind;
+    std::copy_if(problem.begin(), problem.end(), std::back_inserter(kind),
+                 [](char c) { return c < '0' || c > '9'; });
+    const std::size_t count = counts_[kind]++;
+    if (count < kMaxFrames) report_problem(named(frame, problem));
+    if (count == kMaxFrames) report_problem("more frames have this problem: " + problem);
   }
 
  private:
-  static constexpr std::size_t kMaxLines = 10;
+  static constexpr std::size_t kMaxFrames = 10;
   std::map<std::string, std::size_t> counts_;
 };
 
@@ -277,7 +281,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   report_dropped_frames(stats.frames, reader.without_pose);
   if (errors_go_to_a_terminal()) report(stats);  // scripts do not get the report
   const bool no_frame = stats.frames.in == 0 && options.rate != Rate::live && !interrupted && sinks.alive();
-  if (no_frame) report_problem(name_of(options) + ": has no cloud");
+  if (no_frame) report_problem(name_of(options) + ": no cloud");
   const bool nothing_read =
       no_frame || (stats.frames.in > 0 && stats.frames.in == stats.frames.dropped_error);
   int status = sinks.failed() || reader.failed || nothing_read ? 1 : 0;

@@ -182,9 +182,10 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
   const bool one = options.tiled || options.merge;
   const bool several = !one && (inputs.size() > 1 || is_folder(options.inputs.front()));
   const auto target = [&](const char* option, const fs::path& given, const Job& job, const char* extension) {
+    reject_dash(given);
     if (several || !given.has_filename() || is_folder(given.string()))
       return given / (stem(job.input) + extension);
-    if (given.has_extension() || is_device(given)) return given;
+    if (given.has_extension() || needs_no_suffix(given)) return given;
     reject_value(option, given.string(), std::string("has no suffix such as ") + extension);
   };
   // The extension of the output selects the format, also if the output is a folder.

@@ -127,7 +127,7 @@ std::optional<std::string> CommandLine::parse(int argc, const char* const* argv)
   } catch (const CLI::ArgumentMismatch& error) {
     const std::string text = error.what();
     const std::size_t repeated = text.find(": At Most 1 required");
-    throw UsageError(text.substr(0, repeated) + (repeated < text.size() ? ": is given more than once" : "") +
+    throw UsageError(text.substr(0, repeated) + (repeated < text.size() ? ": given more than once" : "") +
                      "; " + app_->get_name() + " --help lists the options");
   } catch (const CLI::ParseError& error) {
     throw UsageError(error.what() + ("; " + app_->get_name() + " --help lists the options"));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What files of KITTI's labels need.
+// Checks settings for files of KITTI's labels.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace pcl_bv::detail {
 
-/// Throws UsageError, which begins with `option`, if the settings make no boxes that KITTI's labels can have:
-/// with a rotation only about z.
+/// Throws UsageError, which begins with `option`, if no method gives boxes that rotate only about z, as
+/// KITTI's labels need.
 void check_kitti_boxes(const std::string& option, const PipelineConfig& config);
 
 }  // namespace pcl_bv::detail

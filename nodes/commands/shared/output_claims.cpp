@@ -14,7 +14,10 @@ namespace fs = std::filesystem;
 
 fs::path identity(const fs::path& path) {
   std::error_code unknown;
-  const fs::path whole = fs::absolute(path, unknown);  // the path of a missing file would stay relative
+  fs::path whole = fs::absolute(path, unknown);  // the path of a missing file would stay relative
+  // A link to a missing file would stay a link.
+  for (int links = 0; links < 40 && fs::is_symlink(whole, unknown) && !fs::exists(whole, unknown); ++links)
+    whole = whole.parent_path() / fs::read_symlink(whole, unknown);
   const fs::path canonical = fs::weakly_canonical(whole, unknown);
   return unknown ? whole.lexically_normal() : canonical;
 }
@@ -27,7 +30,11 @@ bool is_device(const fs::path& file) {
   return fs::exists(status) && fs::is_other(status);
 }
 
-void reject_standard_output(const fs::path& output) {
+bool needs_no_suffix(const fs::path& file) {
+  return is_device(file) || file.string().starts_with("/dev/");  // /dev/stdout may be a link to any file
+}
+
+void reject_dash(const fs::path& output) {
   if (output == "-")
     throw UsageError("-: is not a file; use /dev/stdout for standard output, ./- for a file of this name");
 }
@@ -42,7 +49,7 @@ void OutputClaims::reject_input(const fs::path& output) const {
 }
 
 void OutputClaims::claim(const fs::path& output) {
-  reject_standard_output(output);
+  reject_dash(output);
   reject_input(output);
   const fs::path file = identity(output);
   if (!taken_.insert(file).second && !is_device(file)) {

@@ -13,8 +13,11 @@ namespace pcl_bv::detail {
 /// written.
 bool is_device(const std::filesystem::path& file);
 
-/// Throws UsageError for `-`, which other programs take for standard output.
-void reject_standard_output(const std::filesystem::path& output);
+/// Returns whether an output may have any name: it is a device, or in /dev, such as /dev/stdout.
+bool needs_no_suffix(const std::filesystem::path& file);
+
+/// Throws UsageError if the path is `-`: outputs have no short name for standard output.
+void reject_dash(const std::filesystem::path& output);
 
 /// The inputs and outputs of a command. Files are compared by canonical path, so links do not matter.
 class OutputClaims {

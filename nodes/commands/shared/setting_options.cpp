@@ -53,13 +53,12 @@ std::string option_of(const Setting& setting) {
 
 // Returns the help of an option: one line, with the choices and the default, for each setting that the option
 // sets.
-std::string help_of(std::string_view option, const StreamConfig& defaults, bool stream) {
+std::string help_of(std::string_view option, const StreamConfig& defaults) {
   std::string help;
   visit_stream(defaults, [&](const Setting& setting, const auto& value) {
     if (setting.option != option) return;
     help.append(help.empty() ? "" : "\n").append(setting.help);
-    if (std::is_enum_v<std::decay_t<decltype(value)>>)
-      help.append(": ").append(!stream && setting.key == "cluster.refine" ? "auto, off, neck" : setting.unit);
+    if (std::is_enum_v<std::decay_t<decltype(value)>>) help.append(": ").append(setting.unit);
     help += " (" + shown_default(setting, to_text(value)) + ")";
   });
   return help;
@@ -105,7 +104,7 @@ SettingOptions::SettingOptions(CommandLine& line, const StreamConfig& defaults, 
       line.flag(setting.option.data(), flags_[setting.option], std::string(setting.help));
     } else if (!setting.placeholder.empty()) {
       line.option(setting.option.data(), texts_[setting.option], setting.placeholder.data(),
-                  help_of(setting.option, defaults_, stream_));
+                  help_of(setting.option, defaults_));
     }
   };
   visit_stream(defaults, declare);

@@ -113,8 +113,8 @@ void write_sequence(const RuralRoadSequenceOptions& spec, const std::filesystem:
 }
 
 void require_suffix(const std::filesystem::path& output, const char* suffix) {
-  if (lower_case_extension(output) != suffix && !is_device(output))
-    reject_value("OUT", output.string(), std::string("is no ") + suffix + " file");
+  if (lower_case_extension(output) != suffix && !needs_no_suffix(output))
+    reject_value("OUT", output.string(), std::string("does not end in ") + suffix);
 }
 
 void write_scene(const std::string& scene, const std::filesystem::path& output) {
@@ -153,7 +153,7 @@ int run(int argc, char** argv) {
   line.option("OUT", output, "", "The .pcd file; the folder of a sequence or town; the .mcap file of rig");
   if (const auto text = line.parse(argc, argv)) return print_text(*text);
   if (!line.given("OUT")) throw UsageError("no SCENE or no OUT; synth --help lists the options");
-  reject_standard_output(output);
+  reject_dash(output);
   const Interruption interruption([] {});
   try {
     write_scene(scene, output);

@@ -56,7 +56,7 @@ class CommonFolder {
   std::string make() {
     std::error_code failure;
     const std::filesystem::path parent = std::filesystem::temp_directory_path(failure);
-    if (failure) return "TMPDIR: " + system_reason(failure.value());
+    if (failure) return system_reason(failure.value());
     std::string name = (parent / "pcl_bv_mpi_XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) return system_reason(errno);
     path_ = name;

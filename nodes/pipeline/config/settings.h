@@ -108,7 +108,7 @@ void visit_cluster(Cluster& c, Visit&& visit) {
           "Handling of objects above the maximum size",
           {}, {}, "--oversized", "RULE"}, c.oversized);
   visit(S{"cluster.refine", "auto, off, neck, tracks",
-          "Cut people out of clusters; tracks: join the parts of tracked vehicles, too",
+          "Cut people out of clusters; tracks (bv_stream): join parts of vehicles, too",
           {}, "tracks with tracking, otherwise off", "--refine", "HOW"}, c.refine);
   visit(S{"cluster.min_extent", "m, [along, across, up]",
           "Drop objects whose upright box is shorter, narrower or lower",

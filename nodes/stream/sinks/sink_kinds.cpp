@@ -25,15 +25,18 @@ std::string take_option(const SinkKind& kind, std::string& target) {
   return option.substr(1);
 }
 
-// Throws std::invalid_argument if the target, without its options, ends with a comma and a word: a mistyped
-// option would become a part of the file name.
+// Throws std::invalid_argument if the target, without its options, ends with a comma and a word that begins
+// with a letter, or with a comma: a mistyped option would become a part of the file name.
 void reject_unknown_option(const SinkKind& kind, const std::string& target) {
   const std::size_t comma = target.rfind(',');
   const std::size_t options = kind.target.find("[,");
   if (comma == std::string::npos || options == std::string_view::npos) return;
   const std::string word = target.substr(comma + 1);
-  if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") !=
-      std::string::npos)
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const auto is_of_word = [&](char c) {
+    return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  if (!word.empty() && !(is_letter(word.front()) && std::all_of(word.begin(), word.end(), is_of_word)))
     return;
   throw std::invalid_argument(std::string(kind.name) + ": '" + word + "' is not one of its options " +
                               std::string(kind.target.substr(options)));
@@ -112,7 +115,10 @@ SinkOptions parse_sink(const std::string& description) {
     reject_unknown_option(kind, target);
     options.target = target;
     const bool may_be_printed = kind.target == "FILE";  // lines of text
-    if (!target.empty() && (may_be_printed || target != "-")) return options;
+    if (target == "-" && !may_be_printed)
+      throw std::invalid_argument("'" + description +
+                                  "': only jsonl, csv and kitti write to standard output");
+    if (!target.empty()) return options;
   }
   throw std::invalid_argument("'" + description + "' is not " + sink_syntax());
 }

@@ -102,7 +102,7 @@ std::unique_ptr<FrameSource> open_recorded(const std::string& name, const Replay
 
 }  // namespace
 
-// Returns whether only the name says that this is a recording: a missing or damaged file.
+// Returns whether the name is that of a recording. The file may be missing or damaged.
 bool is_named_recording(const std::filesystem::path& file) {
   std::error_code unknown;
   return has_recording_extension(file) && !std::filesystem::is_directory(file, unknown);

@@ -218,7 +218,7 @@ RawCloud RecordedClouds::load(std::size_t number) {
   if (number < state.next) state.rewind();
   for (;;) {
     if (!state.take())
-      throw IoError("is not there: only " + std::to_string(state.next) +
+      throw IoError("no such cloud: " + std::to_string(state.next) +
                     " clouds of the recording can be read, and numbers count these");
     if (state.next == number) return state.noted_cloud();
     if (number - state.next > kMaxSkipped) {

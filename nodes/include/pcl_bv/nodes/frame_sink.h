@@ -94,7 +94,8 @@ struct SinkOptions {
 };
 
 /// Parses a description in the syntax of sink_syntax(); opens nothing. Throws std::invalid_argument for any
-/// other text, also if an option is mistyped: a comma and a word at the end are an option.
+/// other text. If the kind has options, a comma and a word at the end are taken for one, so an unknown word
+/// is an error.
 SinkOptions parse_sink(const std::string& description);
 
 /// Opens a sink.

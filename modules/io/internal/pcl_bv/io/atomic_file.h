@@ -48,7 +48,8 @@ void write_file_atomically(const std::filesystem::path& path,
 void replace_file_atomically(const std::filesystem::path& path,
                              const std::function<void(const std::filesystem::path&)>& write);
 
-/// Creates a folder and its missing parents, unless it exists. Throws IoError with the reason.
+/// Creates a folder and its missing parents. An existing folder stays. Throws IoError with the reason,
+/// without the path.
 void create_folder(const std::filesystem::path& folder);
 
 /// Creates the missing parent folders of a file. Throws IoError with the reason.

@@ -33,8 +33,10 @@ inline std::optional<UntrustedJson> read_next_json(std::string_view text, std::s
     std::string_view number = error.what();
     number.remove_prefix(std::min(number.find('\''), number.size() - 1) + 1);
     number = number.substr(0, number.find('\''));
-    throw IoError(position_in(text, begin + std::min(value.find(number), value.size())) +
-                  ": a number is too large");
+    std::size_t found = value.find(number);
+    while (found != std::string_view::npos && found > 0 && value[found - 1] == '"')  // in a name
+      found = value.find(number, found + 1);
+    throw IoError(position_in(text, begin + std::min(found, value.size())) + ": a number is too large");
   }
 }
 

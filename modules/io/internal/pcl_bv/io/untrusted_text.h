@@ -26,15 +26,14 @@ inline constexpr std::size_t kMaxPosesBytes = std::size_t{1} << 30;           //
 /// deep.
 inline constexpr int kMaxJsonDepth = 64;
 
-/// Returns the content of a file or a pipe, without a byte order mark (UTF-8) at its beginning. Never reads
-/// more than `max_bytes` + 1 bytes. Throws IoError, such as "no such file or directory" or "has more than
-/// 1048576 bytes".
+/// Returns the content of a file or a pipe. Never reads more than `max_bytes` + 1 bytes. Throws IoError, such
+/// as "no such file or directory" or "has more than 1048576 bytes".
 std::string read_untrusted_text(const std::filesystem::path& path, std::size_t max_bytes);
 
 /// Returns the text of the JSON value that begins at `text[at]` or after white space there, and moves `at` to
-/// the end of the value. Only quotes and brackets are inspected, so the value may be invalid JSON. Returns an
-/// empty text at the end of `text`. Throws IoError if the value is nested more than kMaxJsonDepth deep. Takes
-/// linear time and allocates nothing.
+/// the end of the value. Skips a byte order mark at the beginning of `text`. Only quotes and brackets are
+/// inspected, so the value may be invalid JSON. Returns an empty text at the end of `text`. Throws IoError if
+/// the value is nested more than kMaxJsonDepth deep. Takes linear time and allocates nothing.
 std::string_view next_json_value(std::string_view text, std::size_t& at);
 
 /// Returns the position of byte `at` as text, such as "line 2, column 7". Lines and columns are counted from

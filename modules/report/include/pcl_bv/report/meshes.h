@@ -62,9 +62,10 @@ struct GlbCloud {
 ///
 /// glTF stores positions as floats. They are relative to an origin near the volumes: a position is the float
 /// next to the difference. The matrix of the root node adds the origin, and rotates `up` to y, which is up in
-/// glTF. Vertices beyond the range of float differences are infinite and viewers reject them.
+/// glTF.
 ///
-/// Throws as volumes_ply(), and std::length_error for more than 4 GiB.
+/// Throws as volumes_ply(), std::domain_error for a vertex whose difference is beyond the range of float, and
+/// std::length_error for more than 4 GiB.
 std::string volumes_glb(const std::vector<ClusterEntry>& clusters, const GlbCloud& cloud = {});
 
 /// Returns the valid points as a VTK PolyData file with one cell. The point with the index i
