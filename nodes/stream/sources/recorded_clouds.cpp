@@ -52,7 +52,7 @@ std::string topics_with_types(const std::vector<RecordedTopic>& topics) {
 
 std::size_t cloud_topic(const RecordingReader& reader, const std::string& name) {
   const std::vector<RecordedTopic>& topics = reader.topics();
-  const std::vector<std::string> damage = reader.warning_lines();
+  const std::vector<std::string>& damage = reader.warning_lines();
   if (topics.empty() && !damage.empty()) throw IoError("no topic can be read: " + damage.front());
   const std::string clouds = clouds_of(topics);
   const std::string others = topics.empty()   ? "the recording has no topics"
