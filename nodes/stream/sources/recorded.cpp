@@ -100,13 +100,13 @@ std::unique_ptr<FrameSource> open_recorded(const std::string& name, const Replay
   }
 }
 
-}  // namespace
-
 // Returns whether the name is that of a recording. The file may be missing or damaged.
 bool is_named_recording(const std::filesystem::path& file) {
   std::error_code unknown;
   return has_recording_extension(file) && !std::filesystem::is_directory(file, unknown);
 }
+
+}  // namespace
 
 std::vector<SourceKind> recording_kinds() {
   return {{"packets of a Velodyne, Hesai, Livox or Ouster (.pcap, .pcapng)", FrameTimes::messages,
