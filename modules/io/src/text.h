@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Parses and formats words and numbers, independently of the locale. Unlike std::from_chars, the parser
-// accepts "+1", and it reads values outside the range of a floating-point type as infinity or zero.
+// Functions for headers, words and numbers of text files.
 #pragma once
 
 #include <charconv>
 #include <functional>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
+#include "pcl_bv/io/number_text.h"
 #include "pcl_bv/io/posix_file.h"
 
 namespace pcl_bv::detail {
@@ -34,27 +33,6 @@ Words split(std::string_view line);
 
 /// Returns whether the text can be a field's name, which is not empty and has no blanks or line ends.
 bool is_word(std::string_view text);
-
-/// Returns the value of a well-formed decimal number that std::from_chars reported as out of range. The value
-/// is infinity or zero with the number's sign.
-double value_beyond_range(std::string_view number);
-
-/// Reads the number at the beginning of [at, end). Floating point is rounded to nearest, and "nan" and "inf"
-/// are accepted. Integers must be in range. Returns the position behind the number, or null if there is no
-/// number of this type.
-template <typename T>
-const char* parse_number(const char* at, const char* end, T& value) {
-  if (end - at > 1 && at[0] == '+' && at[1] != '-') ++at;
-  const auto [after, error] = std::from_chars(at, end, value);
-  if (error == std::errc()) return after;
-  if constexpr (std::is_floating_point_v<T>) {
-    if (error == std::errc::result_out_of_range) {
-      value = static_cast<T>(value_beyond_range({at, static_cast<std::size_t>(after - at)}));
-      return after;
-    }
-  }
-  return nullptr;
-}
 
 /// Returns whether the whole word is a number of this type.
 template <typename T>
