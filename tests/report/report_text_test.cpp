@@ -8,6 +8,8 @@
 
 #include <sstream>
 
+#include "german_locale.h"
+#include "pcl_bv/report/csv.h"
 #include "pcl_bv/report/report.h"
 
 namespace pcl_bv::detail {
@@ -52,6 +54,16 @@ TEST(ReportText, EachVolumeIsOneRowAndItsClusterIsNamedOnce) {
   EXPECT_THAT(rows[3], testing::MatchesRegex(" +sphere-epos26 +-10.000 +0.000 +0.500 +r 21.000 +38792"));
   EXPECT_THAT(rows[4], testing::MatchesRegex(" +1 +90 +aabb .*"));
   EXPECT_THAT(rows[5], testing::MatchesRegex(" +sphere-epos26 +empty"));
+}
+
+TEST(ReportText, AndJsonAndCsvDoNotDependOnTheLocale) {
+  Report report = two_clusters();
+  report.seconds = {0.00125, 0.0025, 0.0005};
+  const auto all = [&] { return report_text(report) + report_json(report) + report_csv(report); };
+  const std::string before = all();
+  const test::GermanLocale german;
+  EXPECT_EQ(all(), before);
+  if (!german.is_set()) GTEST_SKIP() << "localedef cannot create a German locale";
 }
 
 TEST(ReportText, ColumnsAreAligned) {

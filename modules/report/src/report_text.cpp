@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "formatting.h"
+#include "pcl_bv/io/number_text.h"
 #include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/report/report.h"
 #include "text_sink.h"
@@ -19,24 +19,18 @@ constexpr std::size_t n_columns = 12;
 constexpr std::size_t method_column = 2;  // the only left-aligned column
 using Row = std::array<std::string, n_columns>;
 
-std::string format(const char* pattern, int precision, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, pattern, precision, value == 0 ? 0.0 : value);
-  return text;
-}
-
 /// Formats a length with `decimals` decimals. If `decimals` is negative, formats four significant digits.
 std::string length(double value, int decimals) {
-  if (decimals < 0) return format("%.*g", 4, value);
+  if (decimals < 0) return general_text(value, 4);
   const bool rounds_to_zero = std::abs(value) * std::pow(10, decimals) < 0.5;
-  return format("%.*f", decimals, rounds_to_zero ? 0 : value);
+  return fixed_text(rounds_to_zero ? 0 : value, decimals);
 }
 
 /// Formats a volume of any magnitude with at least four significant digits.
 std::string four_digits(double value) {
   const int exponent = value == 0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(value))));
-  return exponent < -3 || exponent > 6 ? format("%.*g", 4, value)
-                                       : format("%.*f", std::max(0, 3 - exponent), value);
+  return exponent < -3 || exponent > 6 ? general_text(value, 4)
+                                       : fixed_text(value, std::max(0, 3 - exponent));
 }
 
 /// Returns the number of decimals for the whole table, 0 to 6. The largest size should have five digits, but
@@ -186,9 +180,9 @@ std::string summary_line(const Report& report, std::size_t clusters) {
   add(report.counts.joined, report.counts.joined == 1 ? " object joined" : " objects joined");
   if (clusters == 0) text += ", no clusters";
   if (report.seconds) {
-    text += "; read " + format("%.*f", 1, report.seconds->read * 1e3);
-    text += ", segment " + format("%.*f", 1, report.seconds->segment * 1e3);
-    text += ", fit " + format("%.*f", 1, report.seconds->fit * 1e3) + " ms";
+    text += "; read " + fixed_text(report.seconds->read * 1e3, 1);
+    text += ", segment " + fixed_text(report.seconds->segment * 1e3, 1);
+    text += ", fit " + fixed_text(report.seconds->fit * 1e3, 1) + " ms";
   }
   if (report.origin) {
     text += "\n  origin";
@@ -202,10 +196,10 @@ std::string summary_line(const Report& report, std::size_t clusters) {
 std::string info_text(const CloudInfo& info) {
   std::string text = "  ";
   for (int axis = 0; axis < 3 && !info.box.empty(); ++axis) {
-    text.append(1, "xyz"[axis]).append(" ").append(format("%.*g", 6, info.box.min()[axis]));
-    text.append(" to ").append(format("%.*g", 6, info.box.max()[axis])).append(", ");
+    text.append(1, "xyz"[axis]).append(" ").append(general_text(info.box.min()[axis], 6));
+    text.append(" to ").append(general_text(info.box.max()[axis], 6)).append(", ");
   }
-  if (info.spacing) text += "spacing " + format("%.*g", 3, *info.spacing) + ", ";
+  if (info.spacing) text += "spacing " + general_text(*info.spacing, 3) + ", ";
   if (info.height > 1) text += std::to_string(info.width) + " x " + std::to_string(info.height) + ", ";
   text +=
       std::to_string(info.nonfinite) + " not finite, " + std::to_string(info.zero) + " at 0,0,0\n  fields";
