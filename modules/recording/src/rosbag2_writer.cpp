@@ -49,9 +49,10 @@ std::string name_of(const fs::path& folder) {
   return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
 }
 
+// Numbers become text here, because yaml-cpp would follow the locale of the program, such as 1.000 for 1000.
 YAML::Node nanoseconds(const char* name, std::int64_t value) {
   YAML::Node node;
-  node[name] = value;
+  node[name] = std::to_string(value);
   return node;
 }
 
@@ -191,7 +192,7 @@ class Rosbag2Writer::State {
       about["serialization_format"] = "cdr";
       about["offered_qos_profiles"] = topic.qos;
       entry["topic_metadata"] = about;
-      entry["message_count"] = topic.messages;
+      entry["message_count"] = std::to_string(topic.messages);
       topics.push_back(entry);
       messages += topic.messages;
     }
@@ -203,12 +204,12 @@ class Rosbag2Writer::State {
     part["path"] = file_;
     part["starting_time"] = begins();
     part["duration"] = lasts();
-    part["message_count"] = messages;
+    part["message_count"] = std::to_string(messages);
     info["version"] = 5;
     info["storage_identifier"] = "sqlite3";
     info["duration"] = lasts();
     info["starting_time"] = begins();
-    info["message_count"] = messages;
+    info["message_count"] = std::to_string(messages);
     info["topics_with_message_count"] = topics;
     info["compression_format"] = "";
     info["compression_mode"] = "";
