@@ -4,11 +4,11 @@
 #include "pcl_bv/nodes/frame_result.h"
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <utility>
 
 #include "ground.h"
+#include "pcl_bv/io/number_text.h"
 #include "pcl_bv/segmentation/ground.h"
 #include "pcl_bv/segmentation/up.h"
 #include "pipeline/config/settings.h"
@@ -53,8 +53,8 @@ std::string percent(double share) {
 std::string text_of(const Eigen::Vector3d& position) {
   std::string text = "(";
   for (const double coordinate : position) {
-    char number[40];
-    std::snprintf(number, sizeof number, std::abs(coordinate) < 1e9 ? "%.1f" : "%g", coordinate);
+    const std::string number =
+        std::abs(coordinate) < 1e9 ? fixed_text(coordinate, 1) : general_text(coordinate, 6);
     text.append(text.size() > 1 ? ", " : "").append(number);
   }
   return text + ')';

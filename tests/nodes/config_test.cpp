@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "german_locale.h"
 #include "pipeline/config/settings.h"
 
 namespace pcl_bv::detail {
@@ -246,6 +247,15 @@ TEST(StreamConfig, AnErrorIsOneLineWhateverItQuotes) {
   PipelineConfig config;
   config.volumes = {"aabb", "sphere\n"};
   EXPECT_THAT(config.validate(), testing::ElementsAre(HasSubstr("volumes: 'sphere?' is no method")));
+}
+
+TEST(StreamConfig, DoesNotDependOnTheLocale) {
+  const std::string text =
+      "filter: {range_min: 1.250, range_max: .inf}\nrunner: {queue: 1000}\nground: {distance: +0.5}\n";
+  const std::string before = to_yaml(parse_stream_config(text, ""));
+  EXPECT_THAT(before, HasSubstr("1.25"));
+  const test::GermanLocale german;
+  EXPECT_EQ(to_yaml(parse_stream_config(text, "")), before);
 }
 
 TEST(StreamConfig, AValueThatIsNotAllowedIsNamedWithItsLineAndTheRange) {

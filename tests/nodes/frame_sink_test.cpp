@@ -11,6 +11,7 @@
 
 #include "folder.h"
 #include "frames.h"
+#include "german_locale.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/recording/recording.h"
 #include "pcl_bv/report/meshes.h"
@@ -307,6 +308,32 @@ std::string open_in_vain(const std::vector<std::string>& sinks, const std::funct
     return error.what();
   }
   return "";
+}
+
+TEST_F(FrameSinks, DoNotDependOnTheLocale) {
+  const auto written = [&](const std::string& folder) {
+    SinkGroup group([](const std::string&) {});
+    for (const std::string sink :
+         {"jsonl:a.jsonl", "csv:a.csv", "labels:labels", "vtp:vtp", "mcap:a.mcap", "rosbag2:bag"}) {
+      const std::size_t name = sink.find(':') + 1;
+      group.add(parse_sink(sink.substr(0, name) + (path_ / folder / sink.substr(name)).string()));
+    }
+    Found found;
+    found.frame.header.stamp_ns = 1'700'000'000'123'456'789;
+    group.write(found.frame, found.result);
+    group.close();
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path_ / folder)) {
+      const std::string name = entry.path().lexically_relative(path_).string().substr(folder.size());
+      if (entry.is_regular_file() && entry.path().extension() != ".db3") files[name] = read(folder + name);
+    }
+    return files;
+  };
+  const auto before = written("posix");
+  EXPECT_GE(before.size(), 6U);
+  EXPECT_THAT(before.at("/bag/metadata.yaml"), HasSubstr("nanoseconds_since_epoch: 1700000000123456789\n"));
+  const test::GermanLocale german;
+  EXPECT_TRUE(before == written("german"));
 }
 
 TEST_F(FrameSinks, OpenedInVainLeaveWhatWasThere) {

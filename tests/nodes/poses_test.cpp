@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "folder.h"
+#include "german_locale.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/nodes/frame_source.h"
 
@@ -80,6 +81,13 @@ TEST_F(Poses, OfTumKnowTodaysNanoseconds) {
   add("1317384506.400000001.pcd", 3);
   EXPECT_TRUE(of_frames("1317384506.400000001 1 2 3 0 0 0 1\n", true)[0]);
   EXPECT_FALSE(of_frames("1317384506.400000002 1 2 3 0 0 0 1\n", true)[0]);
+}
+
+TEST_F(Poses, MayHavePlusSignsAndDoNotDependOnTheLocale) {
+  add("0.pcd", 3);
+  const test::GermanLocale german;
+  const auto poses = of_frames("+1 0 0 1.250 0 1 0 +0.5 0 0 1 -2\n");
+  EXPECT_EQ(Eigen::Vector3d(poses.at(0).value().translation()), Eigen::Vector3d(1.25, 0.5, -2));
 }
 
 TEST_F(Poses, ThatCannotBeUsedAreNamedWithTheirLine) {

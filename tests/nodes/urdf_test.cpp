@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "folder.h"
+#include "german_locale.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/nodes/frame_source.h"
 
@@ -78,6 +79,16 @@ TEST_F(UrdfFile, GivesItsFixedJointsAsTransforms) {
   EXPECT_FALSE(transforms.find("base_link", "wheel", 0).pose);  // it moves
 }
 
+TEST_F(UrdfFile, AndItsMeshesDoNotDependOnTheLocale) {
+  write("t.obj", "v 1.250 0.5 -2.125\nv 1 0 0\nv 0 1 0\nv 0 0 1\n");
+  const test::GermanLocale german;
+  EXPECT_EQ(read_mesh_vertices(path_ / "t.obj")[0], Vector(1.25, 0.5, -2.125));
+  const Urdf urdf = read_urdf(write("robot.urdf",
+                                    "<robot><joint name='j' type='fixed'><parent link='a'/><child link='b'/>"
+                                    "<origin xyz='1.250 0.5 -2.125'/></joint></robot>"));
+  EXPECT_EQ(Vector(urdf.joints[0].pose.translation()), Vector(1.25, 0.5, -2.125));
+}
+
 TEST_F(UrdfFile, GivesItsCollisionShapesInAnyLinksFrame) {
   write("robot/wheel.stl", stl(true));
   const Urdf urdf = read_urdf(write("robot/urdf/robot.urdf", kRobot));
@@ -132,7 +143,8 @@ TEST_F(UrdfFile, MayNameMeshesInTextInObjAndByPath) {
   }
   EXPECT_THROW(read_mesh_vertices(write("t.dae", "x")), IoError);
   EXPECT_THROW(read_mesh_vertices(write("e.stl", "")), IoError);
-  EXPECT_THROW(read_mesh_vertices(write("e.obj", "v 1 2\n")), IoError);
+  for (const char* const wrong : {"v 1 2\n", "v 1 2 x\n", "v 1 nan 2\n", "v 1 2 1e999\n"})
+    EXPECT_THROW(read_mesh_vertices(write("e.obj", wrong)), IoError) << wrong;
 }
 
 TEST_F(UrdfFile, IsRejectedWithItsFileAndLine) {

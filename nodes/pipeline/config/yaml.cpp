@@ -4,6 +4,7 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include <cmath>
 #include <map>
 #include <set>
 #include <sstream>
@@ -12,6 +13,7 @@
 
 #include "check.h"
 #include "names.h"
+#include "pcl_bv/io/number_text.h"
 #include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/io/yaml_error.h"
 #include "rows.h"
@@ -28,6 +30,16 @@ using Lines = std::map<std::string, int>;
 [[noreturn]] void fail(const std::string& name, int line, const std::string& what) {
   const std::string where = line > 0 ? ": line " + std::to_string(line) : "";
   throw ConfigError(printable(name.empty() ? what : name + where + ": " + what));
+}
+
+// Reads a number with a decimal point in every locale. yaml-cpp follows the locale of the program, but knows
+// ".inf" and ".nan".
+bool is_number(const YAML::Node& node, double& value) {
+  if (!node.IsScalar()) return false;
+  const std::string& text = node.Scalar();
+  if (text.find_first_of("nN") != std::string::npos) return YAML::convert<double>::decode(node, value);
+  const char* const end = text.data() + text.size();
+  return parse_number(text.data(), end, value) == end && std::isfinite(value);
 }
 
 // Returns the unit of a number, to be appended to errors. For other types, returns an empty text, because
@@ -152,7 +164,7 @@ class Reader {
     read_setting(setting, node.IsNull() ? "null" : scalar(node), value);
   }
   static void read(const Setting& /*any*/, const YAML::Node& node, double& value) {
-    if (!YAML::convert<double>::decode(node, value)) reject(node, "a number");  // accepts .inf, too
+    if (!is_number(node, value)) reject(node, "a number");
   }
   static void read(const Setting& /*any*/, const YAML::Node& node, bool& value) {
     if (!YAML::convert<bool>::decode(node, value)) reject(node, "true or false");  // accepts yes and no, too
@@ -177,7 +189,7 @@ class Reader {
     if (!node.IsSequence()) reject(node, "a list of numbers");
     numbers.clear();
     for (const YAML::Node& element : node)
-      if (!YAML::convert<double>::decode(element, numbers.emplace_back())) reject(element, "a number");
+      if (!is_number(element, numbers.emplace_back())) reject(element, "a number");
   }
   static void read(const Setting& /*any*/, const YAML::Node& node, std::filesystem::path& file) {
     file = scalar(node);

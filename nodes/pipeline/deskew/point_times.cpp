@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
+#include "pcl_bv/io/number_text.h"
 #include "pcl_bv/kernels/convert_times.h"
 #include "visit_numbers.h"
 
@@ -149,21 +149,12 @@ DeskewTimes PointTimes::read(UsableIsa isa, const FieldView& field, const PointV
 
 std::string times_warning(const DeskewTimes& times) {
   std::string text;
-  char line[160];
-  if (times.origin == DeskewTimes::Origin::first_point) {
-    std::snprintf(
-        line, sizeof line,
-        "the times of the points differ from the stamp by %.6g s: the first point is assumed to have "
-        "the time of the stamp",
-        times.clock_difference);
-    text = line;
-  }
-  if (times.outside > 0) {
-    std::snprintf(line, sizeof line,
-                  "%s%zu points have no time of the sweep, or a time far from its median: they are not moved",
-                  text.empty() ? "" : "; ", times.outside);
-    text += line;
-  }
+  if (times.origin == DeskewTimes::Origin::first_point)
+    text = "the times of the points differ from the stamp by " + general_text(times.clock_difference, 6) +
+           " s: the first point is assumed to have the time of the stamp";
+  if (times.outside > 0)
+    text += (text.empty() ? "" : "; ") + std::to_string(times.outside) +
+            " points have no time of the sweep, or a time far from its median: they are not moved";
   return text;
 }
 

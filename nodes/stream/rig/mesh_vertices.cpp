@@ -3,10 +3,15 @@
 
 // The vertices of meshes in STL and OBJ. Edges are not needed, because a hull has only vertices.
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "pcl_bv/io/number_text.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/io/untrusted_text.h"
 #include "urdf.h"
@@ -47,17 +52,21 @@ Vertices binary_stl(const std::string& bytes) {
 
 // Returns the numbers of the lines that begin with `keyword`: "vertex" of STL, "v" of OBJ.
 Vertices text_vertices(const std::string& text, const std::string& keyword) {
+  constexpr std::string_view blanks = " \t\r\v\f";
   Vertices vertices;
   std::istringstream stream(text);
   std::size_t line_number = 0;
   for (std::string line; std::getline(stream, line);) {
     ++line_number;
-    std::istringstream words(line);
-    std::string first;
-    if (!(words >> first) || first != keyword) continue;
+    std::string_view rest(line);
+    rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
+    const std::string_view first = rest.substr(0, rest.find_first_of(blanks));
+    if (first != keyword) continue;
+    rest.remove_prefix(first.size());
     Eigen::Vector3d vertex;
-    if (!(words >> vertex.x() >> vertex.y() >> vertex.z()))
-      throw IoError("line " + std::to_string(line_number) + ": not three numbers");
+    if (!next_number(rest, vertex.x()) || !next_number(rest, vertex.y()) || !next_number(rest, vertex.z()) ||
+        !vertex.allFinite())
+      throw IoError("line " + std::to_string(line_number) + ": not three finite numbers");
     vertices.push_back(vertex);
     check_count(vertices.size());
   }

@@ -4,8 +4,8 @@
 #include "transforms.h"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "pcl_bv/io/number_text.h"
 #include "pcl_bv/io/untrusted_text.h"
 
 namespace pcl_bv::detail {
@@ -26,9 +26,7 @@ bool is_earlier(const StampedPose& pose, std::int64_t stamp_ns) {
 }  // namespace
 
 std::string seconds_text(std::int64_t nanoseconds) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.3f s", 1e-9 * static_cast<double>(nanoseconds));
-  return text;
+  return fixed_text(1e-9 * static_cast<double>(nanoseconds), 3) + " s";
 }
 
 std::optional<Pose> pose_at(const std::vector<StampedPose>& poses, std::int64_t stamp_ns) {

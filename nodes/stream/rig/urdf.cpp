@@ -13,6 +13,7 @@
 
 #include "mounting_pose.h"
 #include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/io/number_text.h"
 #include "pcl_bv/io/untrusted_text.h"
 
 namespace pcl_bv::detail {
@@ -34,15 +35,16 @@ std::string attribute(const XMLElement& element, const char* name) {
 // Returns the numbers of an attribute. A missing attribute gives `missing`.
 std::vector<double> numbers_of(const XMLElement& element, const char* name, std::vector<double> missing) {
   if (element.Attribute(name) == nullptr) return missing;
-  std::istringstream text(attribute(element, name));
+  const std::string text = attribute(element, name);
+  std::string_view rest(text);
   std::vector<double> numbers;
-  for (double number = 0; text >> number;)
+  for (double number = 0; next_number(rest, number);)
     numbers.push_back(number);
-  const bool valid = text.eof() && numbers.size() == missing.size() &&
+  const bool valid = rest.empty() && numbers.size() == missing.size() &&
                      std::all_of(numbers.begin(), numbers.end(),
                                  [](double number) { return std::abs(number) <= kMaxCoordinate; });
   if (!valid)
-    fail_at(element, std::string(name) + " '" + attribute(element, name) + "' is not " +
+    fail_at(element, std::string(name) + " '" + text + "' is not " +
                          (missing.size() == 1 ? "a number" : std::to_string(missing.size()) + " numbers"));
   return numbers;
 }

@@ -6,10 +6,10 @@
 #include "sources.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
+#include "pcl_bv/io/number_text.h"
 #include "pcl_bv/io/untrusted_text.h"
 
 namespace pcl_bv::detail {
@@ -22,13 +22,11 @@ using Numbers = std::vector<long double>;
 Numbers numbers_of(std::string_view line) {
   Numbers numbers;
   for (;;) {
-    line.remove_prefix(std::min(line.find_first_not_of(" \t\r,"), line.size()));
-    if (line.empty()) return numbers;
     long double value = 0;
-    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
-    if (error != std::errc() || !std::isfinite(value)) return {};
+    const bool found = next_number(line, value, " \t\r,");
+    if (line.empty() && !found) return numbers;
+    if (!found || !std::isfinite(value)) return {};
     numbers.push_back(value);
-    line.remove_prefix(static_cast<std::size_t>(end - line.data()));
   }
 }
 

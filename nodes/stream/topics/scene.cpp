@@ -3,16 +3,10 @@
 
 #include "scene.h"
 
-#include <cstdio>
+#include "pcl_bv/io/number_text.h"
 
 namespace pcl_bv::detail {
 namespace {
-
-std::string metres(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
-}
 
 msg::SceneColor scene_colour(const FrameResult& result, std::size_t cluster) {
   msg::SceneColor colour;
@@ -55,7 +49,7 @@ void add_facts(const FrameResult& result, std::size_t cluster, msg::SceneEntity&
   const TrackEntry* const track = result.track_of(cluster);
   if (track == nullptr) return;
   add("age", std::to_string(track->age) + " frames");
-  add("speed", metres(track->velocity.norm()) + " m/s");
+  add("speed", fixed_text(track->velocity.norm(), 2) + " m/s");
   add("moving", track->moving ? "yes" : "no");
 }
 
