@@ -249,6 +249,16 @@ TEST(StreamConfig, AnErrorIsOneLineWhateverItQuotes) {
   EXPECT_THAT(config.validate(), testing::ElementsAre(HasSubstr("volumes: 'sphere?' is no method")));
 }
 
+TEST(StreamConfig, AnErrorQuotesAtMostTwoKilobytes) {
+  std::string key;
+  while (key.size() < 100'000)
+    key += "\u00e4";
+  const std::string error = error_of("? " + key + "\n: 1", "");
+  EXPECT_LE(error.size(), 2003U);
+  EXPECT_THAT(error, testing::StartsWith("unknown key '\u00e4"));
+  EXPECT_THAT(error, testing::EndsWith("\u00e4..."));
+}
+
 TEST(StreamConfig, DoesNotDependOnTheLocale) {
   const std::string text =
       "filter: {range_min: 1.250, range_max: .inf}\nrunner: {queue: 1000}\nground: {distance: +0.5}\n";

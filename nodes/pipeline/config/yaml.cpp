@@ -26,9 +26,18 @@ namespace {
 // Line numbers of keys in the file, from 1. 0 means that the key is not in the file.
 using Lines = std::map<std::string, int>;
 
-// `what` may quote keys and values of the file, which may contain line ends.
-[[noreturn]] void fail(const std::string& name, int line, const std::string& what) {
+// Maximum length of an error in bytes. `what` may quote keys and values of the file, which may be a megabyte
+// long and contain line ends.
+constexpr std::size_t kMaxWhat = 2000;
+
+[[noreturn]] void fail(const std::string& name, int line, std::string what) {
   const std::string where = line > 0 ? ": line " + std::to_string(line) : "";
+  if (what.size() > kMaxWhat) {
+    std::size_t end = kMaxWhat;
+    while (end > 0 && (what[end] & 0xC0) == 0x80)  // keeps characters of UTF-8 whole
+      --end;
+    what.replace(end, std::string::npos, "...");
+  }
   throw ConfigError(printable(name.empty() ? what : name + where + ": " + what));
 }
 
