@@ -6,6 +6,8 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -19,6 +21,13 @@ namespace pcl_bv {
 using namespace detail;
 namespace {
 
+// Numbers become text here, because yaml-cpp would follow the locale of the program, such as 1.000 for 1000.
+YAML::Node yaml_of_number(double value) {
+  if (!std::isfinite(value)) return YAML::Node(value);
+  char digits[32];
+  return YAML::Node(std::string(digits, std::to_chars(digits, digits + sizeof digits, value).ptr));
+}
+
 // Converts parameters to YAML. Whole numbers of ROS parameters have only 32 bits. Larger numbers must be in
 // the file that the parameter `config` names.
 YAML::Node yaml_of(XmlRpc::XmlRpcValue& value, int depth = 0) {
@@ -30,9 +39,9 @@ YAML::Node yaml_of(XmlRpc::XmlRpcValue& value, int depth = 0) {
     case Value::TypeBoolean:
       return YAML::Node(static_cast<bool>(value));
     case Value::TypeInt:
-      return YAML::Node(static_cast<int>(value));
+      return YAML::Node(std::to_string(static_cast<int>(value)));
     case Value::TypeDouble:
-      return YAML::Node(static_cast<double>(value));
+      return yaml_of_number(value);
     case Value::TypeString:
       return YAML::Node(static_cast<std::string>(value));
     case Value::TypeArray:
