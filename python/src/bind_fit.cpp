@@ -4,6 +4,7 @@
 #include "bind.h"
 #include "labels.h"
 #include "pcl_bv/fitting/fit.h"
+#include "pcl_bv/io/number_text.h"
 #include "volume_object.h"
 
 namespace pcl_bv::python {
@@ -181,10 +182,8 @@ void bind_fit(py::module_& module) {
           "worst", [](const VerificationObject& v) { return v.max_violation; },
           "The largest distance outside a face or surface, in the points' unit; 0 if none.")
       .def("__repr__", [](const VerificationObject& v) {
-        char text[160];
-        std::snprintf(text, sizeof text, "Verification(checked=%zu, outside=%zu, worst=%.6g)", v.checked,
-                      v.outside, v.max_violation);
-        return std::string(text);
+        return "Verification(checked=" + std::to_string(v.checked) +
+               ", outside=" + std::to_string(v.outside) + ", worst=" + general_text(v.max_violation, 6) + ")";
       });
   module.def("verify", verify_volume, "volume"_a, "points"_a, py::kw_only(), "threads"_a = 1, verify_doc);
 }

@@ -5,6 +5,7 @@
 
 #include "bind.h"
 #include "clusters_object.h"
+#include "pcl_bv/io/number_text.h"
 #include "picture_object.h"
 #include "result_object.h"
 #include "result_state.h"
@@ -131,10 +132,9 @@ py::object deskewed_points_of(const Shared& self) {
 
 std::string repr_of_result(const Shared& self) {
   const FrameResult& result = self->result;
-  char text[200];
-  std::snprintf(text, sizeof text, "Result(%zu clusters of %zu points, ground=%zu, in %.2f ms)",
-                result.clusters.size(), result.points, result.counts.ground, result.ms.total);
-  return text;
+  return "Result(" + std::to_string(result.clusters.size()) + " clusters of " +
+         std::to_string(result.points) + " points, ground=" + std::to_string(result.counts.ground) + ", in " +
+         fixed_text(result.ms.total, 2) + " ms)";
 }
 
 py::array covariance_of(const TrackEntry& track) {
@@ -172,10 +172,8 @@ Track(id=0, age=1, velocity=[0, 0, 0])
       .def(
           "__eq__", [](const TrackEntry& a, const TrackEntry& b) { return a == b; }, py::is_operator())
       .def("__repr__", [](const TrackEntry& t) {
-        char text[160];
-        std::snprintf(text, sizeof text, "Track(id=%u, age=%zu, velocity=[%.3g, %.3g, %.3g]%s)", t.id, t.age,
-                      t.velocity.x(), t.velocity.y(), t.velocity.z(), t.moving ? ", moving" : "");
-        return std::string(text);
+        return "Track(id=" + std::to_string(t.id) + ", age=" + std::to_string(t.age) +
+               ", velocity=" + vector_text(t.velocity, 3) + (t.moving ? ", moving)" : ")");
       });
 }
 

@@ -3,6 +3,7 @@
 
 #include "volume_object.h"
 
+#include "pcl_bv/io/number_text.h"
 #include "state.h"
 
 #include <mutex>
@@ -22,15 +23,11 @@ std::string_view interned_text(const std::string& text) {
 }
 
 void append(std::string& text, const char* name, double value) {
-  char digits[40];
-  std::snprintf(digits, sizeof digits, "%.6g", value);
-  text.append(text.empty() ? "" : ", ").append(name).append("=").append(digits);
+  text.append(text.empty() ? "" : ", ").append(name).append("=").append(general_text(value, 6));
 }
 
 void append(std::string& text, const char* name, const Eigen::Vector3d& v) {
-  char digits[100];
-  std::snprintf(digits, sizeof digits, "[%.6g, %.6g, %.6g]", v.x(), v.y(), v.z());
-  text.append(text.empty() ? "" : ", ").append(name).append("=").append(digits);
+  text.append(text.empty() ? "" : ", ").append(name).append("=").append(vector_text(v, 6));
 }
 
 /// Appends the parameters of a shape to a repr().
@@ -198,6 +195,11 @@ void set_fit_state(py::handle given, VolumeObject& volume) {
   constexpr std::size_t longest = 200;  // a limit, because reasons are never freed
   if (reason.size() > longest) raise_value_error("reason", "is longer than 200 bytes");
   volume.fit.reason = interned_text(reason);
+}
+
+std::string vector_text(const Eigen::Vector3d& v, int digits) {
+  return '[' + general_text(v.x(), digits) + ", " + general_text(v.y(), digits) + ", " +
+         general_text(v.z(), digits) + ']';
 }
 
 std::string repr_of(const VolumeObject& volume) {

@@ -57,6 +57,9 @@ py::tuple arguments_of(const Prism& prism);
 py::tuple fit_state(const VolumeObject& volume);
 void set_fit_state(py::handle state, VolumeObject& volume);
 
+/// Returns "[x, y, z]" with `digits` significant digits.
+std::string vector_text(const Eigen::Vector3d& v, int digits);
+
 /// Returns the repr() with six digits, for example "Sphere(center=[1, 2, 3], radius=4, method='sphere-exact',
 /// used=100)".
 std::string repr_of(const VolumeObject& volume);
