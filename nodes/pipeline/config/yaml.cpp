@@ -43,7 +43,7 @@ constexpr std::size_t kMaxWhat = 2000;
 
 // Reads a number with a decimal point in every locale. yaml-cpp follows the locale of the program, but knows
 // ".inf" and ".nan".
-bool is_number(const YAML::Node& node, double& value) {
+bool read_yaml_number(const YAML::Node& node, double& value) {
   if (!node.IsScalar()) return false;
   const std::string& text = node.Scalar();
   if (text.find_first_of("nN") != std::string::npos) return YAML::convert<double>::decode(node, value);
@@ -173,7 +173,7 @@ class Reader {
     read_setting(setting, node.IsNull() ? "null" : scalar(node), value);
   }
   static void read(const Setting& /*any*/, const YAML::Node& node, double& value) {
-    if (!is_number(node, value)) reject(node, "a number");
+    if (!read_yaml_number(node, value)) reject(node, "a number");
   }
   static void read(const Setting& /*any*/, const YAML::Node& node, bool& value) {
     if (!YAML::convert<bool>::decode(node, value)) reject(node, "true or false");  // accepts yes and no, too
@@ -198,7 +198,7 @@ class Reader {
     if (!node.IsSequence()) reject(node, "a list of numbers");
     numbers.clear();
     for (const YAML::Node& element : node)
-      if (!is_number(element, numbers.emplace_back())) reject(element, "a number");
+      if (!read_yaml_number(element, numbers.emplace_back())) reject(element, "a number");
   }
   static void read(const Setting& /*any*/, const YAML::Node& node, std::filesystem::path& file) {
     file = scalar(node);

@@ -6,7 +6,6 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -23,9 +22,7 @@ namespace {
 
 // Numbers become text here, because yaml-cpp would follow the locale of the program, such as 1.000 for 1000.
 YAML::Node yaml_of_number(double value) {
-  if (!std::isfinite(value)) return YAML::Node(value);
-  char digits[32];
-  return YAML::Node(std::string(digits, std::to_chars(digits, digits + sizeof digits, value).ptr));
+  return std::isfinite(value) ? YAML::Node(to_text(value)) : YAML::Node(value);
 }
 
 // Converts parameters to YAML. Whole numbers of ROS parameters have only 32 bits. Larger numbers must be in

@@ -23,9 +23,8 @@ Numbers numbers_of(std::string_view line) {
   Numbers numbers;
   for (;;) {
     long double value = 0;
-    const bool found = next_number(line, value, " \t\r,");
-    if (line.empty() && !found) return numbers;
-    if (!found || !std::isfinite(value)) return {};
+    if (!next_number(line, value, " \t\r,")) return line.empty() ? numbers : Numbers();
+    if (!std::isfinite(value)) return {};
     numbers.push_back(value);
   }
 }

@@ -41,7 +41,7 @@ const char* parse_number(const char* at, const char* end, T& value) {
 /// Removes leading separators, then a number, from `text`. If no number follows, removes only the separators
 /// and returns false.
 template <typename T>
-bool next_number(std::string_view& text, T& value, std::string_view separators = " \t\r\n") {
+bool next_number(std::string_view& text, T& value, std::string_view separators = " \t\r\n\v\f") {
   text.remove_prefix(std::min(text.find_first_not_of(separators), text.size()));
   const char* const after = parse_number(text.data(), text.data() + text.size(), value);
   if (after == nullptr) return false;
