@@ -190,6 +190,7 @@ TEST_F(PcdAscii, DoesNotFollowTheLocale) {
   const test::GermanLocale german;
   EXPECT_EQ(read_float("1.250"), 1.25f);
   EXPECT_EQ(read_float("1.5e-60"), 0.0f);
+  if (!german.is_set()) GTEST_SKIP() << "localedef cannot create a German locale";
 }
 
 }  // namespace

@@ -296,20 +296,6 @@ TEST(SinkGroup, MeasuresEachSink) {
   EXPECT_GE(times[0].second.percentile(0.01), 20);
 }
 
-// Opens all and one more that cannot be; gives that one's error.
-std::string open_in_vain(const std::vector<std::string>& sinks, const std::function<void()>& meanwhile = {}) {
-  SinkGroup group([](const std::string&) {});
-  try {
-    for (const std::string& sink : sinks)
-      group.add(parse_sink(sink));
-    if (meanwhile) meanwhile();
-    group.add(parse_sink("jsonl:/proc/none/a.jsonl"));
-  } catch (const IoError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST_F(FrameSinks, DoNotDependOnTheLocale) {
   const auto written = [&](const std::string& folder) {
     SinkGroup group([](const std::string&) {});
@@ -334,6 +320,20 @@ TEST_F(FrameSinks, DoNotDependOnTheLocale) {
   EXPECT_THAT(before.at("/bag/metadata.yaml"), HasSubstr("nanoseconds_since_epoch: 1700000000123456789\n"));
   const test::GermanLocale german;
   EXPECT_TRUE(before == written("german"));
+}
+
+// Opens all and one more that cannot be; gives that one's error.
+std::string open_in_vain(const std::vector<std::string>& sinks, const std::function<void()>& meanwhile = {}) {
+  SinkGroup group([](const std::string&) {});
+  try {
+    for (const std::string& sink : sinks)
+      group.add(parse_sink(sink));
+    if (meanwhile) meanwhile();
+    group.add(parse_sink("jsonl:/proc/none/a.jsonl"));
+  } catch (const IoError& error) {
+    return error.what();
+  }
+  return "";
 }
 
 TEST_F(FrameSinks, OpenedInVainLeaveWhatWasThere) {

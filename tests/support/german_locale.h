@@ -26,12 +26,13 @@ class GermanLocale {
     const std::string command = "localedef -i de_DE -f UTF-8 '" + (folder_ / name).string() + "' 2>/dev/null";
     if (std::system(command.c_str()) != 0) return;
     ::setenv("LOCPATH", folder_.path().c_str(), 1);
+    created_ = true;
     is_set_ = std::setlocale(LC_ALL, name.c_str()) != nullptr;
   }
   ~GermanLocale() {
     std::locale::global(streams_);
     std::setlocale(LC_ALL, "C");
-    ::unsetenv("LOCPATH");
+    if (created_) ::unsetenv("LOCPATH");
   }
   GermanLocale(const GermanLocale&) = delete;
   GermanLocale& operator=(const GermanLocale&) = delete;
@@ -48,7 +49,7 @@ class GermanLocale {
 
   TemporaryFolder folder_;
   std::locale streams_;
-  bool is_set_ = false;
+  bool is_set_ = false, created_ = false;
 };
 
 }  // namespace pcl_bv::test
