@@ -8,7 +8,9 @@
 #include <pcl/search/kdtree.h>
 
 #include <algorithm>
+#include <memory>
 #include <pcl/segmentation/impl/extract_clusters.hpp>
+#include <utility>
 
 #ifdef PCL_BV_BENCH_NANOFLANN
 #include <nanoflann.hpp>

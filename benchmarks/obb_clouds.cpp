@@ -4,6 +4,7 @@
 #include "obb_clouds.h"
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <map>
 #include <random>
 #include <stdexcept>

@@ -10,7 +10,9 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <pcl/segmentation/impl/extract_clusters.hpp>
+#include <vector>
 
 namespace {
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The cars of the street: a body with a sloping hood, a cabin that tapers to the roof, and four wheels.
+#include <algorithm>
 #include <array>
 
 #include "street_parts.h"

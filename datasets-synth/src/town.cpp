@@ -3,6 +3,7 @@
 
 #include "pcl_bv/synth/town.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 

@@ -5,6 +5,8 @@
 
 #include "config_dict.h"
 
+#include <cstdio>
+
 #include "arguments.h"
 #include "pipeline/config/settings.h"
 #include "volume_object.h"

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <stdexcept>
 
 #include "temporary_folder.h"
 

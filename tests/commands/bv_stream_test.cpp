@@ -5,8 +5,10 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdint>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "command.h"
 

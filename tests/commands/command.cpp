@@ -19,6 +19,7 @@
 #include <regex>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 extern char** environ;
 

@@ -3,6 +3,8 @@
 
 // Files that somebody wrote to do harm, or by mistake: one line, the right status, and nothing left behind.
 
+#include <utility>
+
 #include <gmock/gmock.h>
 
 #include "command.h"

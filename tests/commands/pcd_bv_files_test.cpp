@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "command.h"

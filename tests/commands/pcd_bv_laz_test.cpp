@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Results of compressed files are those of the same points in a .las file.
+#include <cstdint>
+#include <cstring>
+
 #include <gmock/gmock.h>
 
 #include "../io/copc_files.h"

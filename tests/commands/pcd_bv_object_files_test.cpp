@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include <cstring>
+#include <iterator>
 #include <map>
 
 #include "pcl_bv/io/read_cloud.h"

@@ -3,6 +3,8 @@
 
 // Files of settings, presets, origins, and what is said before results are believed.
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "command.h"

@@ -8,6 +8,7 @@
 #include <boost/crc.hpp>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 
 #include "tiled_objects.h"
 

@@ -5,7 +5,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <boost/beast/core/detail/base64.hpp>
+#include <cstdint>
 #include <cstring>
 
 #include "command.h"

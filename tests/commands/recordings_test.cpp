@@ -3,6 +3,8 @@
 
 // What both commands make of recordings, and say of what is none.
 
+#include <sstream>
+
 #include <gmock/gmock.h>
 
 #include "../recording/made_packets.h"

@@ -5,8 +5,12 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <sstream>
+#include <utility>
 
 #include "command.h"
 

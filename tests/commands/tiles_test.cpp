@@ -9,6 +9,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <iterator>
 
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/points/point_source.h"

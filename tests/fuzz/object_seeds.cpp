@@ -4,6 +4,7 @@
 #include "object_seeds.h"
 
 #include <fstream>
+#include <iterator>
 #include <random>
 
 #include "object_parts.h"

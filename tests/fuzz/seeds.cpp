@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "../recording/made_hesai.h"
 #include "../recording/made_livox.h"

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 #include "las_bytes.h"
 #ifdef PCL_BV_LASZIP

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <functional>
+
 #include "pcl_bv/io/untrusted_text.h"
 
 #include <gmock/gmock.h>

@@ -4,6 +4,8 @@
 // A reference for chunk_supports(), which compares every point exactly.
 #pragma once
 
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "pcl_bv/kernels/support.h"

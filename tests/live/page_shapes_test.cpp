@@ -3,6 +3,8 @@
 
 // Where the pixels of points and volumes are, by the library's own geometry and the camera of the page.
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <tuple>
 
 #include "message_bytes.h"
 #include "pcl_bv/messages/schema.h"

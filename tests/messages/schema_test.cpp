@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <stdexcept>
+
 #include "pcl_bv/messages/schema.h"
 
 #include <gmock/gmock.h>

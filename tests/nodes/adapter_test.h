@@ -6,6 +6,7 @@
 
 #include <map>
 #include <random>
+#include <set>
 
 #include "frames.h"
 #include "pcl_bv/nodes/frame_pipeline.h"

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 
 #include "pcl_bv/numeric/coordinates.h"
 #include "rational.h"

@@ -3,6 +3,8 @@
 
 // The node between ROS's own commands.
 
+#include <map>
+
 #include <gmock/gmock.h>
 #include <visualization_msgs/MarkerArray.h>
 

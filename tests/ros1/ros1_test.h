@@ -9,6 +9,7 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <sys/socket.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <mutex>

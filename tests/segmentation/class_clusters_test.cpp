@@ -7,7 +7,9 @@
 
 #include <limits>
 #include <map>
+#include <numeric>
 #include <stdexcept>
+#include <string>
 
 #include "pcl_bv/parallel/execution.h"
 #include "reference.h"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "pcl_bv/parallel/execution.h"
 #include "reference.h"

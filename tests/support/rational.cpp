@@ -3,6 +3,7 @@
 
 #include "rational.h"
 
+#include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <ostream>

@@ -4,6 +4,7 @@
 // Claims of how far a k-DOP reaches: its support, its box and its image, which must hold by exact arithmetic.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "exact.h"

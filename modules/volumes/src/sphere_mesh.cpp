@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The mesh of a sphere is an icosahedron whose triangles are each split into four, twice.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>

@@ -7,6 +7,7 @@
 #include <dds/ddsi/q_radmin.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <new>
 

@@ -6,6 +6,7 @@
 // that is known and has the same shape.
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <utility>
 

@@ -10,6 +10,8 @@
 #include <pcl_bv/segmentation/extract_clusters.h>
 
 #include <cstdio>
+#include <memory>
+#include <vector>
 
 struct RadarPoint {
   float doppler;

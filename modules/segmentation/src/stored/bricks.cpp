@@ -4,6 +4,8 @@
 #include "bricks.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace pcl_bv::detail {
 namespace {

@@ -6,6 +6,7 @@
 
 #include <pcl/visualization/pcl_visualizer.h>
 
+#include <cmath>
 #include <mutex>
 #include <string>
 #include <vector>
