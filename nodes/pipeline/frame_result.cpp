@@ -4,7 +4,6 @@
 #include "pcl_bv/nodes/frame_result.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include "filter.h"

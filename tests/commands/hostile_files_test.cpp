@@ -3,9 +3,9 @@
 
 // Files that somebody wrote to do harm, or by mistake: one line, the right status, and nothing left behind.
 
-#include <utility>
-
 #include <gmock/gmock.h>
+
+#include <utility>
 
 #include "command.h"
 

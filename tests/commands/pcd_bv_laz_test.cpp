@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Results of compressed files are those of the same points in a .las file.
+#include <gmock/gmock.h>
+
 #include <cstdint>
 #include <cstring>
-
-#include <gmock/gmock.h>
 
 #include "../io/copc_files.h"
 #include "../io/las_bytes.h"

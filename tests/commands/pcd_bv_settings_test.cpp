@@ -3,9 +3,9 @@
 
 // Files of settings, presets, origins, and what is said before results are believed.
 
-#include <algorithm>
-
 #include <gmock/gmock.h>
+
+#include <algorithm>
 
 #include "command.h"
 #include "pcl_bv/io/read_cloud.h"

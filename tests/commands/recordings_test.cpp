@@ -3,9 +3,9 @@
 
 // What both commands make of recordings, and say of what is none.
 
-#include <sstream>
-
 #include <gmock/gmock.h>
+
+#include <sstream>
 
 #include "../recording/made_packets.h"
 #include "command.h"

@@ -4,9 +4,9 @@
 // A reference for chunk_supports(), which compares every point exactly.
 #pragma once
 
-#include <string>
-
 #include <gtest/gtest.h>
+
+#include <string>
 
 #include "pcl_bv/kernels/support.h"
 

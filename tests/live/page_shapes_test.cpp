@@ -3,10 +3,10 @@
 
 // Where the pixels of points and volumes are, by the library's own geometry and the camera of the page.
 
-#include <algorithm>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "page_scene.h"
 

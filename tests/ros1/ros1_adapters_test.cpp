@@ -4,9 +4,9 @@
 // The topics that the parameter `publish` adds. Subscribers announce the sums that the packages of ROS 1
 // have, so roscpp connects them only if ours are equal.
 
-#include <cmath>
-
 #include <gmock/gmock.h>
+
+#include <cmath>
 
 #include "pcl_bv/messages/moveit.h"
 #include "pcl_bv/messages/polygon.h"

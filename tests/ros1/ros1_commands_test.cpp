@@ -3,10 +3,10 @@
 
 // The node between ROS's own commands.
 
-#include <map>
-
 #include <gmock/gmock.h>
 #include <visualization_msgs/MarkerArray.h>
+
+#include <map>
 
 #include "pcl_bv/recording/recording.h"
 #include "ros1_test.h"
