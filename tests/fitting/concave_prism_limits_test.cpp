@@ -52,13 +52,30 @@ TEST(ConcavePrism, OfPointsNearlyOnALineIsEnclosed) {
 }
 
 TEST(ConcavePrism, OfPointsExactlyOnTwoWallsKeepsItsHull) {
-  std::vector<Vector3d> points;
-  for (int i = 0; i <= 40; ++i) {
-    points.emplace_back(0.25 * i, 0, 1);
-    points.emplace_back(0, 0.25 * i, 2);
+  for (const Vector2d& corner : {Vector2d(0, 0), Vector2d(-40, -80), Vector2d(40, -80), Vector2d(40, 80)}) {
+    std::vector<Vector3d> points;
+    for (int i = 0; i <= 40; ++i) {
+      points.emplace_back(corner.x() + 0.25 * i, corner.y(), 1);
+      points.emplace_back(corner.x(), corner.y() + 0.25 * i, 2);
+    }
+    const Prism prism = *fit_prism(cloud_of<double>(points).view(), {Vector3d::UnitZ(), 1});
+    const std::vector<Vector2d> hull = {corner, corner + Vector2d(10, 0), corner + Vector2d(0, 10)};
+    EXPECT_EQ(prism.outline(), hull) << corner.transpose();
   }
-  const Prism prism = *fit_prism(cloud_of<double>(points).view(), {Vector3d::UnitZ(), 1});
-  EXPECT_EQ(prism.outline(), (std::vector<Vector2d>{{0, 0}, {10, 0}, {0, 10}}));
+}
+
+// The short sides are not refined, so the points in their middle are no corners. A corner there would fold
+// the outline.
+TEST(ConcavePrism, HasNoCornerOnASideThatIsShortEnough) {
+  for (const Vector2d& corner : {Vector2d(0, 0), Vector2d(-40, -80), Vector2d(40, -80), Vector2d(40, 80)}) {
+    std::vector<Vector3d> points;
+    for (const Vector2d& p : {Vector2d(0, 0), Vector2d(10, 0), Vector2d(10, 1.5), Vector2d(10, 3),
+                              Vector2d(0, 3), Vector2d(0, 1.5)})
+      points.emplace_back(corner.x() + p.x(), corner.y() + p.y(), 1);
+    const Prism prism = *fit_prism(cloud_of<double>(points).view(), {Vector3d::UnitZ(), 5});
+    EXPECT_EQ(prism.outline().size(), 4U) << corner.transpose();
+    EXPECT_EQ(prism.footprint_area(), 30) << corner.transpose();
+  }
 }
 
 TEST(ConcavePrism, OfCoordinatesNearTheSmallestDoublesIsEnclosed) {

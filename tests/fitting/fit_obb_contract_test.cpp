@@ -196,14 +196,34 @@ TEST(Obb, OfAClusterAllocatesNothingForDito14AndYaw) {
   }
 }
 
+TEST(Obb, EndsAtTheExtremePointsAlongAnUpThatIsACoordinateAxis) {
+  TestCloud<double> cloud{"", {}};
+  std::mt19937_64 random(17);
+  for (int i = 0; i < 300; ++i) {
+    for (const double size : {3.0, 5.0, 9.0})
+      cloud.xyz.push_back(size * static_cast<double>(random() % 4097) / 4096);
+  }
+  const Aabb box = *fit_aabb(cloud.view());
+  for (const ObbMethod method : kUpright) {
+    for (int k = 0; k < 3; ++k) {
+      const Obb upright = *fit_obb(cloud.view(), {method, Vector3d::Unit(k)});
+      const Vector3d up = Vector3d::Unit(k);
+      EXPECT_EQ(upright.support(up)[k], box.max()[k]) << static_cast<int>(method) << ", axis " << k;
+      EXPECT_EQ(upright.support(-up)[k], box.min()[k]) << static_cast<int>(method) << ", axis " << k;
+    }
+  }
+}
+
 TEST(Obb, RefusesAnUpThatIsNone) {
   Obb box;
   const TestCloud<float> cloud = test::gaussian<float>(10, 16);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const ObbMethod method : kUpright) {
     for (const Vector3d& up :
-         {Vector3d(0, 0, 0), Vector3d(0, nan, 1), Vector3d(1e-31, 0, 0), Vector3d(0, 1e31, 0)})
+         {Vector3d(0, 0, 0), Vector3d(0, nan, 1), Vector3d(0.9e-30, 0, 0), Vector3d(0, -1.1e30, 0)})
       EXPECT_THROW(take(fit_obb(cloud.view(), {method, up}), box), std::invalid_argument);
+    for (const Vector3d& up : {Vector3d(1e-30, 0, 0), Vector3d(1, 0, -1e30)})
+      EXPECT_NO_THROW(take(fit_obb(cloud.view(), {method, up}), box));
   }
   EXPECT_NO_THROW(take(fit_obb(cloud.view(), {ObbMethod::pca, {0, 0, 0}}), box)) << "it does not ask for it";
 }

@@ -217,8 +217,11 @@ TEST(FitPrism, OneFitPerClusterIsThatOfItsPoints) {
 TEST(FitPrism, RefusesAnUpThatIsNoDirection) {
   const TestCloud<float> cloud = test::gaussian<float>(30, 4);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const Vector3d& up : {Vector3d(0, 0, 0), Vector3d(nan, 0, 1), Vector3d(0, 0, 1e31)})
+  for (const Vector3d& up :
+       {Vector3d(0, 0, 0), Vector3d(nan, 0, 1), Vector3d(0.9e-30, 0, 0), Vector3d(0, 0, -1.1e30)})
     EXPECT_THROW(fit_prism(cloud.view(), up), std::invalid_argument);
+  for (const Vector3d& up : {Vector3d(1e-30, 0, 0), Vector3d(1, 0, -1e30)})
+    EXPECT_NO_THROW(fit_prism(cloud.view(), up));
 }
 
 }  // namespace

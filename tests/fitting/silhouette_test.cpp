@@ -6,9 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <random>
 
+#include "box/gauss_arcs.h"
 #include "box/rectangle.h"
+#include "box/support_graph.h"
+#include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/vector3.h"
 
 namespace pcl_bv::detail {
@@ -137,6 +141,46 @@ TEST(Silhouette, OfAHullWhoseNormalsVanishIsThatOfItsVertices) {
   const Corners seen = silhouette.project(u, v, projection);
   ASSERT_GT(seen.size(), 2U);
   EXPECT_EQ(seen, chain(shape.vertices, u, v));
+}
+
+double width_along(const Points& vertices, const Eigen::Vector3d& n) {
+  double low = kInfinity, high = -kInfinity;
+  for (const Eigen::Vector3d& p : vertices) {
+    low = std::min(low, dot3(n, p));
+    high = std::max(high, dot3(n, p));
+  }
+  return high - low;
+}
+
+TEST(GaussArcs, BoundTheWidthsAlongTheirNormalsFromBelow) {
+  for (const Solid& shape : solids()) {
+    for (const Eigen::Vector3d& shift : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(2, -3, 4)}) {
+      Points vertices;
+      for (const Eigen::Vector3d& p : shape.vertices)
+        vertices.emplace_back(p + shift);
+      const Silhouette silhouette(vertices, shape.triangles);
+      SupportGraph graph(silhouette);
+      const GaussArcs gauss(silhouette, graph);
+      ASSERT_FALSE(gauss.arcs.empty());
+      for (const GaussArcs::Arc& arc : gauss.arcs) {
+        EXPECT_LE(gauss.width, arc.width);
+        for (const double t : {0.0, 0.2, 0.5, 0.9, 1.0}) {
+          const Eigen::Vector3d n = ((1 - t) * gauss.nodes[arc.from] + t * gauss.nodes[arc.to]).normalized();
+          EXPECT_LE(arc.width, width_along(vertices, n) + 1e-9) << vertices.size() << " vertices, " << t;
+        }
+      }
+    }
+  }
+}
+
+TEST(GaussArcs, HaveTheWidthOfABox) {
+  Points box;
+  for (int i = 0; i < 8; ++i)
+    box.emplace_back(3 * (i & 1) + 10, 2 * (i >> 1 & 1), i >> 2);
+  const Solid shape = solid(box);
+  const Silhouette silhouette(shape.vertices, shape.triangles);
+  SupportGraph graph(silhouette);
+  EXPECT_DOUBLE_EQ(GaussArcs(silhouette, graph).width, 1);
 }
 
 }  // namespace

@@ -127,23 +127,46 @@ TEST(Verify, SaysHowFarOutsideThePointsAre) {
   EXPECT_DOUBLE_EQ(worst(ellipsoid, {1, 2.25, 0}), 0.25);
   EXPECT_EQ(worst(ellipsoid, {1, 0, 2.75}), 0);
   EXPECT_DOUBLE_EQ(worst(Sphere({1, 0, 0}, 2), {1, 0, 5}), 3);
-  const Aabb box({0, 0, 0}, {1, 2, 3});
-  EXPECT_DOUBLE_EQ(worst(box, {0.5, 1, -4}), 4);
-  EXPECT_DOUBLE_EQ(worst(box, {0.5, 5, 1}), 3);
-  EXPECT_DOUBLE_EQ(worst(Obb(box), {0.5, 1, -4}), 4);
-  EXPECT_DOUBLE_EQ(worst(Obb(box), {5, 1, 1}), 4);
+}
+
+// A box as each volume with flat sides. The last one has a bay.
+std::vector<AnyVolume> boxes(const Aabb& box) {
   std::vector<HullPlane> planes;
   for (int axis = 0; axis < 3; ++axis) {
     planes.push_back({Eigen::Vector3d::Unit(axis), box.max()[axis]});
     planes.push_back({-Eigen::Vector3d::Unit(axis), -box.min()[axis]});
   }
   const auto corners = box.corners();
-  const Hull hull({corners.begin(), corners.end()}, {}, planes, 3);
-  EXPECT_EQ(worst(hull, {0.5, 1, 1}), 0);
-  EXPECT_DOUBLE_EQ(worst(hull, {5, 1, 1}), 4);
-  EXPECT_DOUBLE_EQ(worst(hull, {0.5, 5, 1}), 3);
-  EXPECT_DOUBLE_EQ(worst(hull, {0.5, 1, 5}), 2);
-  EXPECT_DOUBLE_EQ(worst(hull, {0.5, 1, -4}), 4);
+  const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  const double x = box.max().x(), y = box.max().y(), z = box.max().z();
+  Kdop slabs(KdopSet::dop6());
+  for (const Eigen::Vector3d& corner : corners)
+    slabs.extend(corner);
+  return {
+      box,
+      Obb(box),
+      slabs,
+      Hull({corners.begin(), corners.end()}, {}, planes, 3),
+      Prism(axes, {{0, 0}, {x, 0}, {x, y}, {0, y}}, 0, z),
+      Prism(axes, {{0, 0}, {x, 0}, {x, y}, {3 * x / 4, y}, {5 * x / 8, y / 2}, {x / 2, y}, {0, y}}, 0, z)};
+}
+
+TEST(Verify, SaysHowFarBeyondASideThePointsAre) {
+  const Aabb box({0, 0, 0}, {1, 2, 3});
+  for (const AnyVolume& volume : boxes(box)) {
+    const auto worst = [&](const Eigen::Vector3d& point) {
+      return verify(volume, PointView::of(point.data(), 24, 1)).max_violation;
+    };
+    const Eigen::Vector3d inside(0.25, 0.25, 1.5);
+    EXPECT_EQ(worst(inside), 0) << shape_name(volume);
+    for (int axis = 0; axis < 3; ++axis) {
+      Eigen::Vector3d below = inside, above = inside;
+      below[axis] = -4;
+      above[axis] = box.max()[axis] + 2;
+      EXPECT_DOUBLE_EQ(worst(below), 4) << shape_name(volume) << ", axis " << axis;
+      EXPECT_DOUBLE_EQ(worst(above), 2) << shape_name(volume) << ", axis " << axis;
+    }
+  }
 }
 
 TEST(Verify, APointOnAnySideOfABoxIsOutside) {

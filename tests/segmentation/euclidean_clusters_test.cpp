@@ -61,8 +61,9 @@ TEST(EuclideanClusters, AreNoneBeforeAnyAreFound) {
 
 TEST(Counts, AreZeroUntilSomethingIsCounted) {
   const Counts counts;
-  for (const std::size_t count : {counts.nonfinite, counts.range, counts.ground, counts.small, counts.large,
-                                  counts.noise, counts.inside, counts.dropped_class})
+  for (const std::size_t count :
+       {counts.nonfinite, counts.range, counts.ground, counts.small, counts.large, counts.noise,
+        counts.inside, counts.dropped_class, counts.cut, counts.joined})
     EXPECT_EQ(count, 0U);
 }
 

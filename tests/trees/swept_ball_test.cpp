@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "clouds.h"
@@ -186,7 +187,25 @@ TEST(SweptBall, IsLittleGreaterInTheFrameOfTheBoxes) {
   }
 }
 
-// Directions of all lengths, balls that start inside, and points at the edge of the ball's path.
+// Expects bounds that hold for what intersect() measures. Returns whether the ball certainly touches the
+// point.
+bool expect_bounds(const SweptBall& ball, const Ray& ray, const Vector3d& p) {
+  const auto inside = Sphere(p, ray.radius).intersect(ray.origin, ray.direction);
+  const TouchBounds touch = ball.touch(coordinates(p), kInfinity);
+  EXPECT_TRUE(touch.is_possible() || !inside);
+  EXPECT_TRUE(inside || touch.max == kInfinity);
+  if (!inside) return false;
+  const TouchBounds measured = ball.bounds_of_time(inside->enter);
+  EXPECT_LE(touch.min, measured.max);
+  EXPECT_GE(touch.max, measured.min);
+  if (std::isfinite(ball.error)) {
+    EXPECT_LE(touch.min, inside->enter * ball.length);
+    EXPECT_GE(touch.max, inside->enter * ball.length);
+  }
+  return touch.max < kInfinity;
+}
+
+// Directions of all lengths, and balls that start inside.
 TYPED_TEST(SweptBallOf, BoundsTheTouchesOfAllPoints) {
   std::size_t certain = 0, touched = 0;
   for_each_tree<TypeParam>([&](const PointTree& tree, const EachPoint& points, const auto&) {
@@ -196,27 +215,36 @@ TYPED_TEST(SweptBallOf, BoundsTheTouchesOfAllPoints) {
       const Vector3d origin = questions.place();
       const Vector3d direction = questions.direction() * std::ldexp(1, i % 4 == 0 ? 50 * i - 500 : 0);
       if (direction.isZero(0) || !direction.allFinite()) continue;
-      const double radius = i % 5 == 0 ? 0 : 0.1 * questions.distance(origin);
-      const SweptBall ball(packed_tree(tree).boxes, coordinates(origin), coordinates(direction), radius);
+      const Ray ray{origin, direction, i % 5 == 0 ? 0 : 0.1 * questions.distance(origin)};
+      const SweptBall ball(packed_tree(tree).boxes, coordinates(origin), coordinates(direction), ray.radius);
       for (const Vector3d& p : points.places()) {
-        const auto inside = Sphere(p, radius).intersect(origin, direction);
-        const TouchBounds touch = ball.touch(coordinates(p), kInfinity);
-        ASSERT_TRUE(touch.is_possible() || !inside);
-        ASSERT_TRUE(inside || touch.max == kInfinity);
-        certain += static_cast<std::size_t>(touch.max < kInfinity);
-        if (!inside) continue;
-        ++touched;
-        const TouchBounds measured = ball.bounds_of_time(inside->enter);
-        ASSERT_LE(touch.min, measured.max);
-        ASSERT_GE(touch.max, measured.min);
-        if (!std::isfinite(ball.error)) continue;
-        ASSERT_LE(touch.min, inside->enter * ball.length);
-        ASSERT_GE(touch.max, inside->enter * ball.length);
+        certain += expect_bounds(ball, ray, p) ? 1 : 0;
+        touched += Sphere(p, ray.radius).intersect(origin, direction) ? 1 : 0;
+        ASSERT_FALSE(::testing::Test::HasFailure()) << p.transpose();
       }
     }
   });
   EXPECT_GT(certain, touched / 4);
   EXPECT_GT(touched, 100U);
+}
+
+// Rounding decides about points that are as far from the path as the radius: no touch of them is certain.
+TEST(SweptBall, BoundsTheTouchesOfPointsAtTheEdgeOfItsPath) {
+  const auto cloud = test::gaussian<double>(200, 3, 3, 50);
+  const PointTree tree(cloud.view());
+  for (const Vector3d& direction : {Vector3d(1, 0, 0), Vector3d(-2, 3, 0.5)}) {
+    const Vector3d origin = vector(load_point(cloud.view(), 0)) - 20 * direction;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const Vector3d p = vector(load_point(cloud.view(), i));
+      const double from_path = (p - origin).cross(direction.normalized()).norm();
+      for (int k = -3; k <= 3; ++k) {
+        const Ray ray{origin, direction, from_path * (1 + k * 0x1p-50)};
+        const SweptBall ball(packed_tree(tree).boxes, coordinates(origin), coordinates(direction),
+                             ray.radius);
+        EXPECT_FALSE(expect_bounds(ball, ray, p)) << "point " << i << ", " << k;
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -152,6 +152,14 @@ TEST(ConcavePrism, RayIntervalSpansFirstEntryToLastExit) {
   EXPECT_TRUE(l_prism().intersect({2, 0, 2}, {-1, 1, 0})) << "touches the inner corner";
 }
 
+// The ray enters through the top, where its y is that of the inner corner.
+TEST(ConcavePrism, RayThroughTheTopAtTheLevelOfACornerEntersThere) {
+  const auto hit = l_prism().intersect({0.5, 0, 6}, {0, 1, -3});
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->enter, 1, 1e-12);
+  EXPECT_NEAR(hit->exit, 5.0 / 3, 1e-12);
+}
+
 TEST(ConcavePrism, HasAClosedMeshOfItsVolume) {
   for (const Polygon& outline : testing::polygons(7, 60)) {
     const Prism prism(kAxes, outline, 2, 5);
@@ -195,6 +203,28 @@ TEST(ConcavePrism, TransformedStaysConcaveAndContainsTheImageExactly) {
                                       testing::dot(moved.axes().col(1), p)));
     }
     EXPECT_NO_THROW(Prism(moved.axes(), moved.outline(), moved.low(), moved.high()));
+  }
+}
+
+// The coordinates along one axis are rounded far more than those along the other.
+TEST(ConcavePrism, MovedFarAlongOneAxisContainsTheImageExactly) {
+  Polygon thirds = testing::l_shape();
+  for (Vector2d& corner : thirds)
+    corner /= 3;
+  const Prism prism(kAxes, thirds, 0, 1);
+  for (const Vector3d& far : {Vector3d(1e9, 0, 0), Vector3d(0, 1e9, 0)}) {
+    Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+    motion.translation() = far;
+    const Prism moved = prism.transformed(motion);
+    EXPECT_FALSE(moved.is_convex());
+    EXPECT_NEAR(moved.footprint_area(), prism.footprint_area(), 1e-5);
+    for (const Vector2d& corner : thirds) {
+      const testing::ExactPoint p =
+          testing::image(motion, testing::exact(Vector3d(corner.x(), corner.y(), 0.5)));
+      EXPECT_TRUE(testing::in_polygon(moved.outline(), testing::dot(moved.axes().col(0), p),
+                                      testing::dot(moved.axes().col(1), p)))
+          << corner.transpose() << " moved by " << far.transpose();
+    }
   }
 }
 

@@ -5,10 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
+#include "meshes.h"
 #include "pair_volumes.h"
 #include "pcl_bv/volumes/pair_queries.h"
 
@@ -38,6 +42,24 @@ TEST(Frustum, MeasuresAsAPyramidThatIsCutOff) {
   EXPECT_EQ(seen.triangles().size(), 12u);
   EXPECT_EQ(seen.planes().size(), 6u);
   EXPECT_EQ(seen.rank(), 3);
+}
+
+TEST(Frustum, HasAClosedMeshWithTwoTrianglesInEachPlane) {
+  const Hull seen = frustum(Eigen::Isometry3d::Identity(), 1, 3, 0.5, 0.25);
+  testing::expect_closed(seen.mesh());
+  Mesh triangles{seen.vertices(), {}};
+  for (const Hull::Triangle& triangle : seen.triangles())
+    triangles.faces.emplace_back(triangle.begin(), triangle.end());
+  testing::expect_closed(triangles);
+  for (const HullPlane& plane : seen.planes()) {
+    const auto is_in_plane = [&](const Hull::Triangle& triangle) {
+      return std::all_of(triangle.begin(), triangle.end(), [&](auto i) {
+        const Vector3d& vertex = seen.vertices()[static_cast<std::size_t>(i)];
+        return std::abs(plane.normal.dot(vertex) - plane.offset) < 1e-14;
+      });
+    };
+    EXPECT_EQ(std::count_if(seen.triangles().begin(), seen.triangles().end(), is_in_plane), 2);
+  }
 }
 
 TEST(Frustum, PlanesHoldAllVerticesByExactArithmetic) {

@@ -50,7 +50,13 @@ TEST(KdopSet, RefusesZeroAndNonFiniteDirections) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(KdopSet({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}}), std::invalid_argument);
   EXPECT_THROW(KdopSet({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, nan, 1}}), std::invalid_argument);
-  EXPECT_THROW(KdopSet({{1, 0, 0}, {0, 1, 0}, {0, 0, 1e31}}), std::invalid_argument);
+}
+
+TEST(KdopSet, TakesDirectionsFrom1em30To1e30AndNoOthers) {
+  for (const double length : {1e-30, -1e30})
+    EXPECT_NO_THROW(KdopSet({{1, 0, 0}, {0, 1, 0}, {0, 0, length}})) << length;
+  for (const double length : {0.9e-30, -1.1e30})
+    EXPECT_THROW(KdopSet({{1, 0, 0}, {0, 1, 0}, {0, 0, length}}), std::invalid_argument) << length;
 }
 
 TEST(KdopSet, RefusesDirectionsOfAPlane) {

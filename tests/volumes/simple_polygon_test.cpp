@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <random>
 
 #include "outlines.h"
 #include "pcl_bv/volumes/planar_hull.h"
@@ -116,10 +119,49 @@ TEST(PolygonAround, ContainsTheSquaresAroundAllPointsOfThePolygon) {
   }
 }
 
+// Corners move by up to the size of the polygon. Some moved polygons are simple, but cut off a part.
+TEST(PolygonAround, ContainsTheSquaresAroundAllPointsAtAnyDistanceOrIsNothing) {
+  std::size_t given = 0, count = 0;
+  for (const Polygon& inner : testing::polygons(5, 60)) {
+    double size = 0;
+    for (const Vector2d& corner : inner)
+      size = std::max(size, (corner - inner[0]).cwiseAbs().maxCoeff());
+    for (int k = 4; k < 40; ++k) {
+      const double distance = size * std::exp2(-0.25 * k);
+      const auto outer = polygon_around(inner, distance);
+      ++count;
+      if (!outer) continue;
+      ++given;
+      for (std::size_t i = 0; i < 8 * inner.size(); ++i) {
+        const Vector2d &a = inner[i / 8], &b = inner[(i / 8 + 1) % inner.size()];
+        const Vector2d p = a + static_cast<double>(i % 8) / 8 * (b - a);
+        for (const double x : {-distance, distance}) {
+          for (const double y : {-distance, distance}) {
+            ASSERT_TRUE(polygon_contains(*outer, p + Vector2d(x, y)))
+                << inner.size() << " corners, " << k << ", " << p.transpose();
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(given, count / 2);
+  EXPECT_LT(given, count);
+}
+
 TEST(PolygonAround, ReturnsNothingIfABayIsNarrowerThanTheDistance) {
   const Polygon bay = {{0, 0}, {4, 0}, {4, 4}, {2.125, 4}, {2, 1}, {1.875, 4}, {0, 4}};
   EXPECT_TRUE(polygon_around(bay, 0x1p-10));
   EXPECT_FALSE(polygon_around(bay, 0.25));
+}
+
+// The moved right side of the upper tooth is above the right side of the lower one: only a horizontal line
+// separates them.
+TEST(PolygonAround, MovesTheEndsOfTeethThatFaceEachOther) {
+  const double d = 0x1p-6;
+  const Polygon jaws = {{0, 0}, {5, 0}, {5, 1}, {3, 1},         {3, 2},         {2, 2}, {2, 1}, {1, 1},
+                        {1, 4}, {2, 4}, {2, 3}, {3 - 4 * d, 3}, {3 - 4 * d, 4}, {5, 4}, {5, 5}, {0, 5}};
+  ASSERT_TRUE(is_simple_polygon(jaws));
+  EXPECT_TRUE(polygon_around(jaws, d));
 }
 
 TEST(PolygonAround, ReturnsNothingIfAnAngleIsBelowATenthOfADegree) {

@@ -173,6 +173,20 @@ TEST(Sphere, MergeWithAnEnclosedSphereReturnsTheBiggerUnchanged) {
   EXPECT_TRUE(encloses(next, Sphere({std::nextafter(2, 3), 0, 0}, 1)));
 }
 
+// The squares of the smallest sizes underflow.
+TEST(Sphere, MergedWithASphereInsideIsItselfAtAllSizes) {
+  for (int exponent = -1000; exponent <= 300; exponent += 4) {
+    const double unit = std::ldexp(1.0, exponent);
+    const Sphere big(unit * Vector3d(1, 2, 3), 5 * unit);
+    const auto merged = [&](double away) {
+      return Sphere(big).merge(Sphere(unit * Vector3d(1 + away, 2, 3), 2 * unit));
+    };
+    EXPECT_EQ(merged(3), big) << "it touches from inside, " << exponent;
+    EXPECT_EQ(merged(3 - 0x1p-10), big) << exponent;
+    EXPECT_GT(merged(3 + 0x1p-10).radius(), big.radius()) << exponent;
+  }
+}
+
 TEST(Sphere, MergeWithASphereThatReachesTheSurfaceButForRoundingChangesNothing) {
   // The bigger radius is the least double with which it holds the smaller sphere.
   Random random(15);

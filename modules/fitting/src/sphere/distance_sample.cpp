@@ -59,7 +59,6 @@ double smallest_of(const OctantPoints& found) {
 
 void DistanceScan::scan_sample(const FarQuery& query, OctantPoints& found) {
   if (sample_one_of_ != query.one_of) {
-    sample_one_of_ = 1;  // in case a source throws
     sample_.clear();
     for (const auto& [begin, count] : sampled_positions(points_, query.one_of))
       sample_.emplace_back(points_, begin, count);

@@ -32,7 +32,7 @@ class PieceReader {
 
   const SpillFile* file_;
   PieceOfShare from_;
-  std::uint64_t at_, left_, first_number_ = 0;
+  std::uint64_t at_, left_, first_number_;
   ScalarType scalar_;
   std::size_t step_, max_records_, position_ = 0;
   std::uint32_t sum_;
