@@ -25,7 +25,7 @@ double value(const std::array<double, n>& coefficients, double t) {
   return sum;
 }
 
-TEST(Bernstein, AProductHasTheProductsOfTheValues) {
+TEST(Bernstein, ValueOfAProductIsTheProductOfTheValues) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform(-1, 1);
   const auto linear = [&] { return Linear{uniform(random), uniform(random)}; };

@@ -64,9 +64,9 @@ TEST(ConcavePrism, OfPointsExactlyOnTwoWallsKeepsItsHull) {
   }
 }
 
-// The short sides are not refined, so the points in their middle are no corners. A corner there would fold
-// the outline.
-TEST(ConcavePrism, HasNoCornerOnASideThatIsShortEnough) {
+// Sides shorter than the length are not refined. The points in their middle see the long sides at the widest
+// angle; as corners they would make the outline touch itself.
+TEST(ConcavePrism, HasNoCornerInsideASideThatIsShorterThanTheLength) {
   for (const Vector2d& corner : {Vector2d(0, 0), Vector2d(-40, -80), Vector2d(40, -80), Vector2d(40, 80)}) {
     std::vector<Vector3d> points;
     for (const Vector2d& p : {Vector2d(0, 0), Vector2d(10, 0), Vector2d(10, 1.5), Vector2d(10, 3),

@@ -196,7 +196,7 @@ TEST(Obb, OfAClusterAllocatesNothingForDito14AndYaw) {
   }
 }
 
-TEST(Obb, EndsAtTheExtremePointsAlongAnUpThatIsACoordinateAxis) {
+TEST(Obb, SupportsAlongAnUpThatIsACoordinateAxisAreThoseOfTheCloud) {
   TestCloud<double> cloud{"", {}};
   std::mt19937_64 random(17);
   for (int i = 0; i < 300; ++i) {
@@ -214,7 +214,7 @@ TEST(Obb, EndsAtTheExtremePointsAlongAnUpThatIsACoordinateAxis) {
   }
 }
 
-TEST(Obb, RefusesAnUpThatIsNone) {
+TEST(Obb, RefusesAnUpWhoseLargestComponentIsNotFrom1em30To1e30) {
   Obb box;
   const TestCloud<float> cloud = test::gaussian<float>(10, 16);
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -214,7 +214,7 @@ TEST(FitPrism, OneFitPerClusterIsThatOfItsPoints) {
   EXPECT_EQ(*fits[2], *fit_prism(subsets(cloud.view(), clusters)[2], Vector3d(1, 1, 1)));
 }
 
-TEST(FitPrism, RefusesAnUpThatIsNoDirection) {
+TEST(FitPrism, RefusesAnUpWhoseLargestComponentIsNotFrom1em30To1e30) {
   const TestCloud<float> cloud = test::gaussian<float>(30, 4);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const Vector3d& up :

@@ -166,7 +166,7 @@ TEST(GaussArcs, BoundTheWidthsAlongTheirNormalsFromBelow) {
         EXPECT_LE(gauss.width, arc.width);
         for (const double t : {0.0, 0.2, 0.5, 0.9, 1.0}) {
           const Eigen::Vector3d n = ((1 - t) * gauss.nodes[arc.from] + t * gauss.nodes[arc.to]).normalized();
-          EXPECT_LE(arc.width, width_along(vertices, n) + 1e-9) << vertices.size() << " vertices, " << t;
+          EXPECT_LE(arc.width, width_along(vertices, n) + 1e-13) << vertices.size() << " vertices, " << t;
         }
       }
     }

@@ -129,8 +129,9 @@ TEST(Verify, SaysHowFarOutsideThePointsAre) {
   EXPECT_DOUBLE_EQ(worst(Sphere({1, 0, 0}, 2), {1, 0, 5}), 3);
 }
 
-// A box as each volume with flat sides. The last one has a bay.
-std::vector<AnyVolume> boxes(const Aabb& box) {
+// A box from 0 to (x, y, z) as each volume with flat sides. The last one has a bay.
+std::vector<AnyVolume> boxes(double x, double y, double z) {
+  const Aabb box({0, 0, 0}, {x, y, z});
   std::vector<HullPlane> planes;
   for (int axis = 0; axis < 3; ++axis) {
     planes.push_back({Eigen::Vector3d::Unit(axis), box.max()[axis]});
@@ -138,7 +139,6 @@ std::vector<AnyVolume> boxes(const Aabb& box) {
   }
   const auto corners = box.corners();
   const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-  const double x = box.max().x(), y = box.max().y(), z = box.max().z();
   Kdop slabs(KdopSet::dop6());
   for (const Eigen::Vector3d& corner : corners)
     slabs.extend(corner);
@@ -152,8 +152,8 @@ std::vector<AnyVolume> boxes(const Aabb& box) {
 }
 
 TEST(Verify, SaysHowFarBeyondASideThePointsAre) {
-  const Aabb box({0, 0, 0}, {1, 2, 3});
-  for (const AnyVolume& volume : boxes(box)) {
+  const Eigen::Vector3d size(1, 2, 3);
+  for (const AnyVolume& volume : boxes(size.x(), size.y(), size.z())) {
     const auto worst = [&](const Eigen::Vector3d& point) {
       return verify(volume, PointView::of(point.data(), 24, 1)).max_violation;
     };
@@ -162,7 +162,7 @@ TEST(Verify, SaysHowFarBeyondASideThePointsAre) {
     for (int axis = 0; axis < 3; ++axis) {
       Eigen::Vector3d below = inside, above = inside;
       below[axis] = -4;
-      above[axis] = box.max()[axis] + 2;
+      above[axis] = size[axis] + 2;
       EXPECT_DOUBLE_EQ(worst(below), 4) << shape_name(volume) << ", axis " << axis;
       EXPECT_DOUBLE_EQ(worst(above), 2) << shape_name(volume) << ", axis " << axis;
     }

@@ -365,9 +365,9 @@ TEST(GroundBySlope, EndsWhereASlopeIsSteeper) {
   EXPECT_LT(share(25, 20), 0.6);
   EXPECT_GT(share(25, 27), 0.97);
   EXPECT_LT(share(10, 5), 0.6);
-  const double usual = GroundSlopeOptions().max_slope_degrees;
-  EXPECT_LT(share(20.9, usual), 0.8);
-  EXPECT_GT(share(19.5, usual), 0.96);
+  const double default_limit = GroundSlopeOptions().max_slope_degrees;
+  EXPECT_LT(share(20.9, default_limit), 0.8);
+  EXPECT_GT(share(19.5, default_limit), 0.96);
 }
 
 TEST(GroundBySlope, IsNotARoofButTheStreetUnderABridge) {

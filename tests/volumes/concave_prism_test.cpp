@@ -152,8 +152,7 @@ TEST(ConcavePrism, RayIntervalSpansFirstEntryToLastExit) {
   EXPECT_TRUE(l_prism().intersect({2, 0, 2}, {-1, 1, 0})) << "touches the inner corner";
 }
 
-// The ray enters through the top, where its y is that of the inner corner.
-TEST(ConcavePrism, RayThroughTheTopAtTheLevelOfACornerEntersThere) {
+TEST(ConcavePrism, RayEntersThroughTheTopAtTheYOfTheInnerCorner) {
   const auto hit = l_prism().intersect({0.5, 0, 6}, {0, 1, -3});
   ASSERT_TRUE(hit);
   EXPECT_NEAR(hit->enter, 1, 1e-12);

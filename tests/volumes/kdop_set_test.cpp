@@ -52,7 +52,7 @@ TEST(KdopSet, RefusesZeroAndNonFiniteDirections) {
   EXPECT_THROW(KdopSet({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, nan, 1}}), std::invalid_argument);
 }
 
-TEST(KdopSet, TakesDirectionsFrom1em30To1e30AndNoOthers) {
+TEST(KdopSet, RequiresALargestComponentFrom1em30To1e30) {
   for (const double length : {1e-30, -1e30})
     EXPECT_NO_THROW(KdopSet({{1, 0, 0}, {0, 1, 0}, {0, 0, length}})) << length;
   for (const double length : {0.9e-30, -1.1e30})

@@ -119,7 +119,7 @@ TEST(PolygonAround, ContainsTheSquaresAroundAllPointsOfThePolygon) {
   }
 }
 
-// Corners move by up to the size of the polygon. Some moved polygons are simple, but cut off a part.
+// Edges move by up to twice the size of the polygon. Some moved polygons are simple, but do not contain it.
 TEST(PolygonAround, ContainsTheSquaresAroundAllPointsAtAnyDistanceOrIsNothing) {
   std::size_t given = 0, count = 0;
   for (const Polygon& inner : testing::polygons(5, 60)) {
@@ -154,9 +154,9 @@ TEST(PolygonAround, ReturnsNothingIfABayIsNarrowerThanTheDistance) {
   EXPECT_FALSE(polygon_around(bay, 0.25));
 }
 
-// The moved right side of the upper tooth is above the right side of the lower one: only a horizontal line
-// separates them.
-TEST(PolygonAround, MovesTheEndsOfTeethThatFaceEachOther) {
+// The upper tooth's right side moves to above the lower tooth's right side. Only a horizontal line separates
+// it from the strip of that side.
+TEST(PolygonAround, MovesSidesThatOnlyAHorizontalLineSeparates) {
   const double d = 0x1p-6;
   const Polygon jaws = {{0, 0}, {5, 0}, {5, 1}, {3, 1},         {3, 2},         {2, 2}, {2, 1}, {1, 1},
                         {1, 4}, {2, 4}, {2, 3}, {3 - 4 * d, 3}, {3 - 4 * d, 4}, {5, 4}, {5, 5}, {0, 5}};

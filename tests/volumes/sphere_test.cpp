@@ -174,7 +174,7 @@ TEST(Sphere, MergeWithAnEnclosedSphereReturnsTheBiggerUnchanged) {
 }
 
 // The squares of the smallest sizes underflow.
-TEST(Sphere, MergedWithASphereInsideIsItselfAtAllSizes) {
+TEST(Sphere, MergeWithAnEnclosedSphereReturnsTheBiggerAtAllSizes) {
   for (int exponent = -1000; exponent <= 300; exponent += 4) {
     const double unit = std::ldexp(1.0, exponent);
     const Sphere big(unit * Vector3d(1, 2, 3), 5 * unit);

@@ -150,8 +150,9 @@ class OutlineRefiner {
     return apex;
   }
 
-  // Returns whether one of the two new edges would meet another edge. The neighbours of the replaced edge may
-  // meet the new edges in their common corner only.
+  // Returns whether one of the two new edges would meet another edge. A neighbour of the replaced edge shares
+  // a corner with one new edge, so the two are not compared. If they shared more, they would be on one line,
+  // and either the other new edge would touch the neighbour, or this new edge the edge beyond the neighbour.
   bool meets_edge(const Edge& replaced, const Triangle& triangle) const {
     const auto& [a, b, p] = triangle.corners;
     for (const Edge& edge : edges_) {
@@ -159,15 +160,10 @@ class OutlineRefiner {
           (edge.a.cwiseMax(edge.b).array() < triangle.low.array()).any() || &edge == &replaced)
         continue;
       const bool before = edge.b == a, after = edge.a == b;
-      if (before ? are_folded(edge.a, a, p) : segments_touch(a, p, edge.a, edge.b)) return true;
-      if (after ? are_folded(edge.b, b, p) : segments_touch(b, p, edge.a, edge.b)) return true;
+      if (!before && segments_touch(a, p, edge.a, edge.b)) return true;
+      if (!after && segments_touch(b, p, edge.a, edge.b)) return true;
     }
     return false;
-  }
-
-  // Returns whether the segments from `corner` to p and to q are on one line and on the same side.
-  static bool are_folded(const Eigen::Vector2d& p, const Eigen::Vector2d& corner, const Eigen::Vector2d& q) {
-    return orientation(p, corner, q) == 0 && ((p - corner).array() * (q - corner).array() >= 0).all();
   }
 
   PlanarGrid grid_;
