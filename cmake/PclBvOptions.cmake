@@ -15,7 +15,7 @@ option(PCL_BV_NODES_PCL "Find what grabbers and a live window need of PCL, and t
 option(PCL_BV_LARGE_TESTS "Build the tests that write files of gigabytes" OFF)
 option(PCL_BV_FUZZ "Build only the fuzzers of the readers; needs clang" OFF)
 option(PCL_BV_UNITY "Compile the sources of a library together: a build from nothing is faster, one after a change slower" OFF)
-option(PCL_BV_STREAMS "Build bv_stream and what streams need; without it, only pcd_bv and synth" ON)
+option(PCL_BV_STREAMS "Build bv_stream, recordings and what streams need; without it, only pcd_bv of files and synth" ON)
 set(PCL_BV_ISAS all CACHE STRING
     "Instruction sets to compile kernels for: all, native (this machine's best), or a list of scalar sse4 avx2 avx512 neon sve sve2")
 option(PCL_BV_WERROR "Treat warnings as errors" OFF)
@@ -36,7 +36,7 @@ endforeach()
 if("nodes" IN_LIST PCL_BV_COMPONENTS)
   list(APPEND PCL_BV_COMPONENTS report messages)
   # The library alone does without recordings, and so without SQLite.
-  if(PCL_BV_BUILD_COMMANDS OR "python" IN_LIST PCL_BV_COMPONENTS)
+  if(PCL_BV_STREAMS AND (PCL_BV_BUILD_COMMANDS OR "python" IN_LIST PCL_BV_COMPONENTS))
     list(APPEND PCL_BV_COMPONENTS recording)
   endif()
 endif()
