@@ -105,5 +105,50 @@ TEST_F(FilesFromOutside, AreReadNoFartherThanTheyMayGo) {
   EXPECT_EQ(read_untrusted_text("/dev/null", 1), "");
 }
 
+TEST(TextFromOutside, MessagesKeepBothEndsOfLongNamesAndOfTheLine) {
+  EXPECT_EQ(message_line("a.pcd: no such file"), "a.pcd: no such file");
+  EXPECT_EQ(message_line("a\nb\x1b[2J"), "a?b?[2J");
+  const std::string name = "begin" + std::string(200'000, 'x') + "end.glb",
+                    line = message_line("dir/t.json: " + name + ": no such file");
+  EXPECT_EQ(line.size(), 12 + kMaxNameBytes + 14);
+  EXPECT_THAT(line, testing::StartsWith("dir/t.json: beginxxx"));
+  EXPECT_THAT(line, testing::EndsWith("xxxend.glb: no such file"));
+  std::string words;
+  for (int i = 0; i < 60'000; ++i)
+    words += "/topic" + std::to_string(i) + ", ";
+  const std::string list = message_line("topics: " + words + "choose one");
+  EXPECT_LE(list.size(), kMaxMessageBytes);
+  EXPECT_THAT(list, testing::StartsWith("topics: /topic0, /topic1, "));
+  EXPECT_THAT(list, testing::EndsWith(", /topic59999, choose one"));
+}
+
+TEST(TextFromOutside, MessagesKeepTheCharactersOfUtf8Whole) {
+  for (const std::string character : {"\xC3\xA4", "\xE2\x82\xAC", "\xF0\x9F\x98\x80"}) {
+    for (std::size_t shift = 0; shift < 4; ++shift) {
+      std::string name(shift, 'a');
+      while (name.size() < 1000)
+        name += character;
+      std::string line = message_line(name);
+      EXPECT_LE(line.size(), kMaxNameBytes);
+      line.erase(line.find("..."), 3);
+      EXPECT_EQ((line.size() - shift) % character.size(), 0U) << line;
+    }
+  }
+  EXPECT_LE(message_line(std::string(1000, '\x80')).size(), kMaxNameBytes);
+}
+
+TEST(TextFromOutside, ListsOfNamesEndWithANumber) {
+  EXPECT_EQ(name_list({}), "");
+  EXPECT_EQ(name_list({"a", "b"}), "a, b");
+  EXPECT_EQ(name_list({"1", "2", "3", "4", "5", "6", "7", "8", "9", "10"}),
+            "1, 2, 3, 4, 5, 6, 7, 8 and 2 more");
+}
+
+TEST(TextFromOutside, AFailedAllocationHasAReason) {
+  EXPECT_EQ(reason_of(std::bad_alloc()), "not enough memory");
+  EXPECT_EQ(reason_of(std::length_error("vector::_M_default_append")), "not enough memory");
+  EXPECT_EQ(reason_of(IoError("is cut")), "is cut");
+}
+
 }  // namespace
 }  // namespace pcl_bv::detail

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <new>
+#include <stdexcept>
+#include <utility>
 
 #include "pcl_bv/io/posix_file.h"
 
@@ -21,6 +24,21 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
   for (++at; at < text.size() && text[at] != '"'; ++at)
     at += text[at] == '\\';
   return std::min(at + 1, text.size());
+}
+
+bool continues_character(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80;
+}
+
+// Returns a text without its middle, in at most `max_bytes`. `before` bytes of it are the beginning.
+std::string without_middle(std::string_view text, std::size_t max_bytes, std::size_t before) {
+  constexpr std::string_view gap = "...";
+  std::size_t head = before, tail = text.size() - (max_bytes - before - gap.size());
+  while (head > 0 && continues_character(text[head]))
+    --head;
+  while (tail < text.size() && continues_character(text[tail]))
+    ++tail;
+  return std::string(text.substr(0, head)).append(gap).append(text.substr(tail));
 }
 
 }  // namespace
@@ -85,6 +103,34 @@ std::string printable(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; }, '?');
   return text;
+}
+
+std::string message_line(std::string_view text) {
+  std::string line;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find_first_of(kSpace, at + 1), text.size());
+    const std::string_view name = text.substr(at, end - at);
+    line += name.size() > kMaxNameBytes ? without_middle(name, kMaxNameBytes, kMaxNameBytes / 2) : name;
+    at = end;
+  }
+  // The reason is at the end of most messages.
+  if (line.size() > kMaxMessageBytes) line = without_middle(line, kMaxMessageBytes, kMaxMessageBytes / 2);
+  return printable(std::move(line));
+}
+
+std::string reason_of(const std::exception& error) {
+  const bool no_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
+                         dynamic_cast<const std::length_error*>(&error) != nullptr;
+  return no_memory ? "not enough memory" : error.what();
+}
+
+std::string name_list(const std::vector<std::string>& names) {
+  constexpr std::size_t few = 8;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(few, names.size()); ++i)
+    list += (i == 0 ? "" : ", ") + names[i];
+  if (names.size() > few) list += " and " + std::to_string(names.size() - few) + " more";
+  return list;
 }
 
 }  // namespace pcl_bv::detail

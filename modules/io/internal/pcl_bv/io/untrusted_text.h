@@ -6,9 +6,11 @@
 #pragma once
 
 #include <cstddef>
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "pcl_bv/io/raw_cloud.h"
 
@@ -43,6 +45,20 @@ std::string position_in(std::string_view text, std::size_t at);
 /// Returns the text with `?` in place of each control character. A control character would break the line of
 /// a message, or control a terminal. UTF-8 is unchanged.
 std::string printable(std::string text);
+
+inline constexpr std::size_t kMaxMessageBytes = 500;  ///< Of a message in one line.
+inline constexpr std::size_t kMaxNameBytes = 120;     ///< Of a name in it: bytes without a blank.
+
+/// Returns a message as one line of at most kMaxMessageBytes, with `?` in place of control characters. Names
+/// of files, topics and keys may have any length: names of more than kMaxNameBytes and longer lines lose
+/// their middle, which becomes "...". Characters of UTF-8 stay whole.
+std::string message_line(std::string_view text);
+
+/// Returns what() of an error, or "not enough memory" for a failed allocation, which has only a name in C++.
+std::string reason_of(const std::exception& error);
+
+/// Returns the names as "a, b, c". Of more than 8 names, returns the first 8 and the number of the others.
+std::string name_list(const std::vector<std::string>& names);
 
 }  // namespace detail
 }  // namespace pcl_bv
