@@ -11,10 +11,11 @@
 namespace pcl_bv {
 namespace {
 
-std::atomic<std::size_t> count{0};
+std::atomic<std::size_t> count{0}, total{0};
 
 void* allocate(std::size_t bytes, std::size_t alignment) noexcept {
   ++count;
+  total += bytes;
   std::size_t largest = largest_allocation;
   while (bytes > largest && !largest_allocation.compare_exchange_weak(largest, bytes)) {
   }
@@ -34,6 +35,10 @@ std::atomic<std::size_t> largest_allocation{0};
 
 std::size_t allocations() {
   return count;
+}
+
+std::size_t allocated_bytes() {
+  return total;
 }
 
 }  // namespace pcl_bv

@@ -13,6 +13,9 @@ namespace pcl_bv {
 /// Calls of operator new so far in this program.
 std::size_t allocations();
 
+/// The bytes that they were asked for, in total.
+std::size_t allocated_bytes();
+
 /// The most bytes that one of them was asked for; may be set to 0.
 extern std::atomic<std::size_t> largest_allocation;
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <stdexcept>
 
 #include "pcl_bv/io/crc32.h"
@@ -38,9 +39,8 @@ void require_same(bool same, const char* what) {
 // Returns the union of `a` and `b`. Adjacent ranges become one. Throws std::invalid_argument if `a` and `b`
 // overlap.
 Shares united_shares(const Shares& a, const Shares& b) {
-  Shares sorted = a, shares;
-  sorted.insert(sorted.end(), b.begin(), b.end());
-  std::sort(sorted.begin(), sorted.end());
+  Shares sorted, shares;
+  std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(sorted));
   for (const auto& share : sorted) {
     require_same(shares.empty() || share.first >= shares.back().second,
                  "overlaps another share: is the same file given twice?");

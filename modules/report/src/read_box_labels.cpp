@@ -89,7 +89,7 @@ void append_cuboids(const LabelJson& json, const std::string& path, std::vector<
     ++i;
     if (!value.is_structured()) continue;
     std::string inner = path;
-    inner += json.is_object() ? '.' + key : '[' + std::to_string(i - 1) + ']';
+    inner += json.is_object() ? '.' + key.substr(0, kMaxNameBytes) : '[' + std::to_string(i - 1) + ']';
     if (json.is_object() && key == "cuboid") {
       append_boxes(value, inner, openlabel_box, volumes);
     } else {

@@ -241,7 +241,7 @@ std::vector<AnyVolume> read_volumes(const std::filesystem::path& file) {
   try {
     return volumes_in(read_untrusted_text(file, kMaxVolumesBytes));
   } catch (const IoError& error) {
-    throw IoError(printable(file.string() + ": " + error.what()));
+    throw IoError(message_line(file.string() + ": " + error.what()));
   }
 }
 

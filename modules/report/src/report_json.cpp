@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "json_text.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/report/cluster_json.h"
 #include "pcl_bv/report/report.h"
 #include "text_sink.h"
@@ -152,14 +153,14 @@ void write_report_json(const Report& report, const ClusterSource& clusters, cons
   JsonText json(text);
   json.begin('{').add("schema", 1).add("file", report.file);
   if (report.error) {
-    json.add("error", *report.error).end('}');
+    json.add("error", message_line(*report.error)).end('}');
     return take(text);
   }
   if (report.parts) json.add("parts", *report.parts);
   if (!report.left_out.empty()) {
     json.key("left_out").begin('[');
     for (const LeftOutInput& input : report.left_out)
-      json.begin('{').add("file", input.file).add("error", input.error).end('}');
+      json.begin('{').add("file", input.file).add("error", message_line(input.error)).end('}');
     json.end(']');
   }
   json.add("points", report.points);
@@ -212,7 +213,7 @@ std::string frame_json(const FrameReport& report, const ClusterSource& clusters)
   json.add("frame_id", report.frame_id);
   if (!report.file.empty()) json.add("file", report.file);
   if (report.error) {
-    json.add("error", *report.error).end('}');
+    json.add("error", message_line(*report.error)).end('}');
     return text;
   }
   json.add("points", report.points);

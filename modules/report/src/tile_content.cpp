@@ -6,10 +6,13 @@
 #include "tile_content.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "json_numbers.h"
@@ -19,8 +22,9 @@ namespace {
 
 using ContentJson = UntrustedJson;
 
-// Instances of meshes multiply points. A small file must not take all memory.
-constexpr std::size_t kMaxTilePoints = 100'000'000;
+// Instances of meshes multiply points. A small file must not take all memory: a forest of 1000 equal trees
+// has about 50 points for each byte.
+constexpr std::size_t kMaxTilePoints = 100'000'000, kAllowedPoints = 1'000'000, kMaxPointsPerByte = 64;
 constexpr std::size_t kMaxCount = std::size_t{1} << 40;
 
 template <typename T>
@@ -119,8 +123,11 @@ void append_pnts(std::string_view content, std::vector<double>& points) {
 
 class Glb {
  public:
-  Glb(std::string_view file, const Eigen::Vector3d& center, std::vector<double>& points)
-      : center_(center), points_(points) {
+  Glb(std::string_view file, const Eigen::Vector3d& center, UpAxis up, std::vector<double>& points)
+      : max_points_(std::min(kMaxTilePoints, std::max(kAllowedPoints, kMaxPointsPerByte * file.size()))),
+        points_(points) {
+    to_tile_.topLeftCorner<3, 3>() = turn_from(up);
+    to_tile_.topRightCorner<3, 1>() = center;
     if (number_at<std::uint32_t>(file, 4) != 2) throw IoError("is not glTF of version 2");
     const std::size_t text = number_at<std::uint32_t>(file, 12);
     json_ = read_json(part_at(file, 20, text));
@@ -134,14 +141,31 @@ class Glb {
   void append_scene() {
     if (!json_.contains("nodes")) return;
     visited_.resize(list_of("nodes", json_["nodes"]).size());
+    if (json_.contains("meshes")) meshes_.resize(list_of("meshes", json_["meshes"]).size());
+    if (json_.contains("animations") && !json_["animations"].empty())
+      throw IoError("has animations, which move points");
     const ContentJson& scene = entry(json_, "scenes", count_of(json_, "scene", 0));
-    // glTF has y up. In a tile, z is up.
-    Eigen::Matrix4d tile;
-    tile << 1, 0, 0, center_.x(), 0, 0, -1, center_.y(), 0, 1, 0, center_.z(), 0, 0, 0, 1;
-    append_children(scene, "nodes", tile);
+    add_children(scene, "nodes", to_tile_);
+    points_.reserve(3 * count_);
+    for (const auto& [positions, to_tile] : shown_)
+      for (const Positions& each : *positions)
+        append_positions(each, to_tile);
   }
 
  private:
+  struct Positions {
+    std::string_view bytes;
+    std::size_t count, stride;
+  };
+
+  // Returns the rotation that makes an axis of glTF the z axis, as viewers of 3D Tiles have it.
+  static Eigen::Matrix3d turn_from(UpAxis up) {
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+    if (up == UpAxis::y) turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+    if (up == UpAxis::x) turn << 0, 0, -1, 0, 1, 0, 1, 0, 0;
+    return turn;
+  }
+
   // Extensions that do not move vertices.
   void require_known_extensions(const char* list) const {
     for (const ContentJson& extension : list_of(list, json_[list])) {
@@ -154,27 +178,24 @@ class Glb {
     }
   }
 
-  void append_children(const ContentJson& parent, const char* key, const Eigen::Matrix4d& to_tile) {
+  void add_children(const ContentJson& parent, const char* key, const Eigen::Matrix4d& to_tile) {
     if (!parent.contains(key)) return;
     for (const ContentJson& child : list_of(key, parent[key])) {
       if (!child.is_number_unsigned() || child.get<std::uint64_t>() >= visited_.size())
         refuse(key, "numbers of nodes are wanted", child);
       const auto node = child.get<std::size_t>();
       if (std::exchange(visited_[node], 1) != 0) refuse("nodes: a node has two parents");
-      append_node(json_["nodes"][node], to_tile);
+      add_node(json_["nodes"][node], to_tile);
     }
   }
 
-  void append_node(const ContentJson& node, const Eigen::Matrix4d& to_tile) {
+  void add_node(const ContentJson& node, const Eigen::Matrix4d& to_tile) {
     if (++depth_ > 256) refuse("nodes: nested more than 256 deep");
     const Eigen::Matrix4d transform = to_tile * matrix_of(node);
     if (node.contains("skin")) throw IoError("has a skin, which moves points");
-    if (node.contains("mesh")) {
-      const ContentJson& mesh = entry(json_, "meshes", count_of(node, "mesh"));
-      for (const ContentJson& primitive : list_of("primitives", member(mesh, "primitives")))
-        append_positions(count_of(member(primitive, "attributes"), "POSITION"), transform);
-    }
-    append_children(node, "children", transform);
+    if (node.contains("weights")) throw IoError("has morph targets, which move points");
+    if (node.contains("mesh")) add_mesh(count_of(node, "mesh"), transform);
+    add_children(node, "children", transform);
     --depth_;
   }
 
@@ -192,7 +213,23 @@ class Glb {
     return transform.matrix();
   }
 
-  void append_positions(std::size_t index, const Eigen::Matrix4d& to_tile) {
+  // Returns the positions of a mesh's primitives. Many primitives often share one accessor, which is returned
+  // once: nodes x primitives could be billions in a small file.
+  const std::vector<Positions>& positions_of(std::size_t mesh) {
+    const ContentJson& found = entry(json_, "meshes", mesh);
+    if (meshes_[mesh]) return *meshes_[mesh];
+    if (found.contains("weights")) throw IoError("has morph targets, which move points");
+    std::set<std::size_t> known;
+    std::vector<Positions> all;
+    for (const ContentJson& primitive : list_of("primitives", member(found, "primitives"))) {
+      const std::size_t accessor = count_of(member(primitive, "attributes"), "POSITION");
+      if (!known.insert(accessor).second) continue;
+      if (const Positions positions = positions_in(accessor); positions.count > 0) all.push_back(positions);
+    }
+    return meshes_[mesh].emplace(std::move(all));
+  }
+
+  Positions positions_in(std::size_t index) const {
     const ContentJson& accessor = entry(json_, "accessors", index);
     if (accessor.contains("sparse")) throw IoError("has sparse positions");
     if (member(accessor, "componentType") != 5126 || member(accessor, "type") != "VEC3")
@@ -205,19 +242,37 @@ class Glb {
     const std::string_view bytes =
         part_at(binary_, count_of(view, "byteOffset", 0), count_of(view, "byteLength"));
     if (stride < 12 || stride > 252) refuse("byteStride: 12 to 252 is wanted");
-    if (count > 0) part_at(bytes, begin, (count - 1) * stride + 12);
-    if (points_.size() / 3 + count > kMaxTilePoints) throw IoError("has more than 100000000 points");
-    for (std::size_t i = 0; i < count; ++i) {
+    if (count == 0) return {bytes, 0, stride};
+    return {part_at(bytes, begin, (count - 1) * stride + 12), count, stride};
+  }
+
+  // Counts the points before any memory is taken for them.
+  void add_mesh(std::size_t mesh, const Eigen::Matrix4d& to_tile) {
+    for (const Positions& positions : positions_of(mesh)) {
+      if (positions.count > max_points_ - count_)
+        throw IoError("its nodes show more than " + std::to_string(max_points_) +
+                      " points, the limit for a file of this size");
+      count_ += positions.count;
+    }
+    shown_.emplace_back(&positions_of(mesh), to_tile);
+  }
+
+  void append_positions(const Positions& positions, const Eigen::Matrix4d& to_tile) {
+    for (std::size_t i = 0; i < positions.count; ++i) {
       Eigen::Vector3f p;
-      std::memcpy(p.data(), bytes.data() + begin + i * stride, 12);
+      std::memcpy(p.data(), positions.bytes.data() + i * positions.stride, 12);
       append((to_tile * p.cast<double>().homogeneous()).head<3>(), points_);
     }
   }
 
-  Eigen::Vector3d center_;
+  Eigen::Matrix4d to_tile_ = Eigen::Matrix4d::Identity();
+  std::size_t max_points_;
   std::vector<double>& points_;
   ContentJson json_;
   std::string_view binary_;
+  std::vector<std::optional<std::vector<Positions>>> meshes_;
+  std::vector<std::pair<const std::vector<Positions>*, Eigen::Matrix4d>> shown_;  // meshes in the scene
+  std::size_t count_ = 0;                                                         // of their points
   std::vector<char> visited_;  // not bool, which has no references
   int depth_ = 0;
 };
@@ -232,18 +287,18 @@ Eigen::Matrix4d column_major(const char* key, const UntrustedJson& value) {
   return matrix;
 }
 
-std::vector<double> tile_points(std::string_view content) {
+std::vector<double> tile_points(std::string_view content, UpAxis up) {
   std::vector<double> points;
   try {
     const std::string_view magic = content.substr(0, 4);
     if (magic == "pnts") {
       append_pnts(content, points);
     } else if (magic == "glTF") {
-      Glb(content, Eigen::Vector3d::Zero(), points).append_scene();
+      Glb(content, Eigen::Vector3d::Zero(), up, points).append_scene();
     } else if (magic == "b3dm") {
       const FeatureTable table(content);
       Glb(part_at(content, table.end, content.size() - std::min(content.size(), table.end)), table.center(),
-          points)
+          up, points)
           .append_scene();
     } else {
       throw IoError("is no .pnts, .glb or .b3dm file");

@@ -13,16 +13,18 @@
 
 namespace pcl_bv::detail {
 
-inline void add_tile_volume(const Obb& box, JsonText& json) {
+/// Returns the numbers of a "box": the center and the half axes.
+inline Eigen::Matrix<double, 12, 1> tile_numbers(const Obb& box) {
   const Eigen::Matrix3d half = box.axes() * box.half_extents().asDiagonal();
   Eigen::Matrix<double, 12, 1> twelve;
   twelve << box.center(), half.col(0), half.col(1), half.col(2);
-  json.begin('{').add("box", twelve).end('}');
+  return twelve;
 }
 
-inline void add_tile_volume(const Sphere& sphere, JsonText& json) {
+/// Returns the numbers of a "sphere".
+inline std::array<double, 4> tile_numbers(const Sphere& sphere) {
   const Eigen::Vector3d& c = sphere.center();
-  json.begin('{').add("sphere", std::array{c.x(), c.y(), c.z(), sphere.radius()}).end('}');
+  return {c.x(), c.y(), c.z(), sphere.radius()};
 }
 
 // Returns degrees in radians, rounded down. The product has an error of half a unit in the last place, and

@@ -28,11 +28,11 @@ const AnyVolume* tile_volume_of(const ClusterEntry& cluster, TileFrame frame) {
 void add_volume(const AnyVolume& volume, TileFrame frame, JsonText& json) {
   json.key("boundingVolume");
   if (const auto* sphere = std::get_if<Sphere>(&volume)) {
-    add_tile_volume(*sphere, json);
+    json.begin('{').add("sphere", tile_numbers(*sphere)).end('}');
   } else if (const auto* box = std::get_if<Obb>(&volume)) {
-    add_tile_volume(*box, json);
+    json.begin('{').add("box", tile_numbers(*box)).end('}');
   } else if (frame == TileFrame::cartesian) {
-    add_tile_volume(Obb(std::get<Aabb>(volume)), json);
+    json.begin('{').add("box", tile_numbers(Obb(std::get<Aabb>(volume)))).end('}');
   } else {
     add_tile_region(std::get<Aabb>(volume), json);
   }
