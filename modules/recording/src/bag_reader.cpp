@@ -49,7 +49,7 @@ class BagReader final : public ChunkedReader {
       scan();
       sort_offsets();
     }
-    start(std::move(found_topics_), std::move(found_parts_));
+    start(std::move(found_topics_.all()), std::move(found_parts_));
   }
 
  private:
@@ -82,8 +82,8 @@ class BagReader final : public ChunkedReader {
     const auto id = header.number<std::uint32_t>("conn");
     if (topic_of_.count(id) > 0) return;
     const BagHeader connection(data, size);
-    topic_of_[id] = add_topic(
-        found_topics_, {std::string(header.text("topic")), ros2_type(connection.text("type")), "ros1"});
+    topic_of_[id] =
+        found_topics_.add({std::string(header.text("topic")), ros2_type(connection.text("type")), "ros1"});
   }
 
   // Reads the index at the file's end, which has the connections and the positions of the chunks. If the
@@ -104,7 +104,7 @@ class BagReader final : public ChunkedReader {
       problem = error.what();
     }
     add_warning("no usable index (" + problem + "): the whole file was scanned");
-    found_topics_.clear();
+    found_topics_ = {};
     topic_of_.clear();
     found_parts_.clear();
     return false;
@@ -126,7 +126,7 @@ class BagReader final : public ChunkedReader {
           const std::uint32_t messages = counts.length();
           if (topic == topic_of_.end()) return false;
           part.topics.push_back(topic->second);
-          found_topics_[topic->second].messages += messages;
+          found_topics_.all()[topic->second].messages += messages;
         }
       }
       at = location->data + location->size;
@@ -203,7 +203,12 @@ class BagReader final : public ChunkedReader {
   // such chunk.
   std::uint64_t chunk_around(std::uint64_t begin, std::uint64_t end, std::uint64_t from) const {
     const std::uint64_t lowest = std::max(from, begin - std::min(begin, kMaxChunkHeader));
+    std::vector<std::byte> bytes(begin - lowest + 4);
+    file_.read(lowest, bytes.data(), bytes.size());
     for (std::uint64_t at = begin; at-- > lowest;) {
+      std::uint32_t length = 0;
+      std::memcpy(&length, bytes.data() + (at - lowest), sizeof length);
+      if (length > kMaxChunkHeader || at + 8 + length <= end) continue;  // saves three reads of the file
       const std::optional<BagRecordLocation> location = record_at(at, kMaxChunkHeader);
       if (location && location->data > end && op_of(*location) == BagOp::chunk) return at;
     }
@@ -254,9 +259,9 @@ class BagReader final : public ChunkedReader {
     if (next != offsets_.end() && location->data + location->size > *next)
       throw IoError("the chunk overlaps the next one");
     file_.require_unchanged();
-    auto records = unpack_shared<BagBytes>(
-        cache_, part_offset(part), buffers.shared, buffers.unpacked,
-        [&](auto& to) { return unpack(*location, buffers.decompressor, buffers.raw, to); });
+    auto records =
+        unpack_shared<BagBytes>(cache_, part_offset(part), buffers.shared, buffers.unpacked,
+                                [&](auto& to) { return unpack(*location, decompressor(), buffers.raw, to); });
     while (records.left() > 0) {
       const BagRecord record = take_bag_record(records);
       if (record.header.op() != BagOp::message) continue;
@@ -269,7 +274,7 @@ class BagReader final : public ChunkedReader {
 
   InputFile file_;
   std::shared_ptr<ChunkCache> cache_ = ChunkCache::of(file_);
-  std::vector<RecordedTopic> found_topics_;        // moved to the base class by start()
+  TopicList found_topics_;                         // moved to the base class by start()
   std::vector<Part> found_parts_;                  // moved to the base class by start()
   std::vector<std::uint64_t> offsets_;             // positions of the chunks, ascending
   std::map<std::uint32_t, std::size_t> topic_of_;  // index in the topics, by connection id

@@ -11,6 +11,12 @@
 #include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv::detail {
+namespace {
+
+// Chunks whose times overlap are in memory together. Real ones have some megabytes.
+constexpr std::size_t kMaxLoadedBytes = std::size_t{4} << 30;
+
+}  // namespace
 
 void ChunkedReader::start(std::vector<RecordedTopic> topics, std::vector<Part> parts) {
   topics_ = std::move(topics);
@@ -29,45 +35,44 @@ void ChunkedReader::select(const std::vector<std::size_t>& topics) {
     wanted.at(topic) = true;
   wanted_ = std::move(wanted);
   next_part_ = 0;
+  if (current_) spare_.push_back(std::move(current_));
   for (auto& loaded : loaded_)
     spare_.push_back(std::move(loaded));
   loaded_.clear();
+  loaded_bytes_ = 0;
 }
 
 bool ChunkedReader::next(RecordedMessage& message) {
-  release();
+  put_back();
   while (next_part_ < order_.size()) {
     const std::int64_t begins = parts_[order_[next_part_]].first_time_ns;
-    if (!loaded_.empty() && begins > earliest()->messages[earliest()->next].log_time_ns) break;
+    if (!loaded_.empty() && begins > loaded_.front()->time()) break;
     load_next();
   }
   if (loaded_.empty()) return false;
-  LoadedPart& from = *earliest();
-  message = from.messages[from.next++];
+  std::pop_heap(loaded_.begin(), loaded_.end(), is_later);
+  current_ = std::move(loaded_.back());
+  loaded_.pop_back();
+  message = current_->messages[current_->next++];
   return true;
 }
 
-// Returns the loaded part with the earliest next message. If times are equal, returns the first part in the
-// file.
-ChunkedReader::LoadedPart* ChunkedReader::earliest() const {
-  const auto before = [](const auto& a, const auto& b) {
-    const std::int64_t at = a->messages[a->next].log_time_ns, bt = b->messages[b->next].log_time_ns;
-    return at != bt ? at < bt : a->part < b->part;
-  };
-  return std::min_element(loaded_.begin(), loaded_.end(), before)->get();
+bool ChunkedReader::is_later(const std::unique_ptr<LoadedPart>& a, const std::unique_ptr<LoadedPart>& b) {
+  return a->time() != b->time() ? a->time() > b->time() : a->part > b->part;
 }
 
-// Releases the parts without further messages. next() calls release() first, because the caller may use the
-// message of the previous call until then.
-void ChunkedReader::release() {
-  for (auto loaded = loaded_.begin(); loaded != loaded_.end();) {
-    if ((*loaded)->next < (*loaded)->messages.size()) {
-      ++loaded;
-    } else {
-      spare_.push_back(std::move(*loaded));
-      loaded = loaded_.erase(loaded);
-    }
-  }
+// Puts the part of the previous message back, unless it has no further ones. The caller may use the message
+// of the previous call until the next call of next().
+void ChunkedReader::put_back() {
+  if (!current_) return;
+  if (current_->next < current_->messages.size()) return push(std::move(current_));
+  loaded_bytes_ -= current_->buffers.bytes();
+  spare_.push_back(std::move(current_));
+}
+
+void ChunkedReader::push(std::unique_ptr<LoadedPart> part) {
+  loaded_.push_back(std::move(part));
+  std::push_heap(loaded_.begin(), loaded_.end(), is_later);
 }
 
 void ChunkedReader::load_next() {
@@ -95,19 +100,25 @@ void ChunkedReader::load_next() {
   std::stable_sort(
       loaded->messages.begin(), loaded->messages.end(),
       [](const RecordedMessage& a, const RecordedMessage& b) { return a.log_time_ns < b.log_time_ns; });
-  (loaded->messages.empty() ? spare_ : loaded_).push_back(std::move(loaded));
+  if (loaded_bytes_ + loaded->buffers.bytes() > kMaxLoadedBytes && !loaded_.empty()) {
+    add_warning("skipped the chunk at byte " + std::to_string(part.offset) +
+                ": chunks of the same time have more than 4 GiB together");
+    loaded->messages.clear();
+    loaded->buffers = {};
+  }
+  if (loaded->messages.empty()) return spare_.push_back(std::move(loaded));
+  loaded_bytes_ += loaded->buffers.bytes();
+  push(std::move(loaded));
 }
 
-std::size_t add_topic(std::vector<RecordedTopic>& topics, const RecordedTopic& topic) {
-  auto found = std::find_if(topics.begin(), topics.end(), [&](const RecordedTopic& other) {
-    return other.name == topic.name && other.type == topic.type && other.encoding == topic.encoding;
-  });
-  if (found == topics.end()) {
-    topics.push_back(topic);
-    return topics.size() - 1;
+std::size_t TopicList::add(const RecordedTopic& topic) {
+  const auto [found, added] = numbers_.try_emplace({topic.name, topic.type, topic.encoding}, topics_.size());
+  if (added) {
+    topics_.push_back(topic);
+  } else {
+    topics_[found->second].messages += topic.messages;
   }
-  found->messages += topic.messages;
-  return static_cast<std::size_t>(found - topics.begin());
+  return found->second;
 }
 
 std::string ros2_type(std::string_view type) {

@@ -5,7 +5,10 @@
 // time, so chunks with overlapping times are in memory at the same time.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include "chunk_cache.h"
@@ -31,7 +34,8 @@ class ChunkedReader : public RecordingReader {
   struct Buffers {
     std::vector<std::byte> raw, unpacked;
     UnpackedChunk shared;
-    Decompressor decompressor;
+
+    std::size_t bytes() const { return raw.size() + unpacked.size() + (shared ? shared->size() : 0); }
   };
 
   /// Sets the topics, and the parts in the order of the file. Must be called once, before all other
@@ -45,28 +49,49 @@ class ChunkedReader : public RecordingReader {
   /// Returns whether the topic is selected.
   bool wanted(std::size_t topic) const { return wanted_[topic]; }
   std::uint64_t part_offset(std::size_t part) const { return parts_[part].offset; }
+  /// For load(). It is not a member of Buffers, because it takes 160 kB, more than many small chunks.
+  Decompressor& decompressor() { return decompressor_; }
 
  private:
   struct LoadedPart {
     std::size_t part = 0, next = 0;         // index of the part, and index in `messages` of its next message
     std::vector<RecordedMessage> messages;  // sorted by time
     Buffers buffers;
+
+    std::int64_t time() const { return messages[next].log_time_ns; }
   };
 
-  LoadedPart* earliest() const;
-  void release();
+  static bool is_later(const std::unique_ptr<LoadedPart>& a, const std::unique_ptr<LoadedPart>& b);
+  void put_back();
   void load_next();
+  void push(std::unique_ptr<LoadedPart> part);
 
   std::vector<RecordedTopic> topics_;
   std::vector<Part> parts_;
   std::vector<bool> wanted_;
   std::vector<std::size_t> order_;  // indices of the parts, sorted by first_time_ns
   std::size_t next_part_ = 0;
-  std::vector<std::unique_ptr<LoadedPart>> loaded_, spare_;
+  // A heap: first the part with the earliest next message or, if times are equal, the first in the file.
+  std::vector<std::unique_ptr<LoadedPart>> loaded_;
+  std::unique_ptr<LoadedPart> current_;  // has the message that next() returned; not in loaded_
+  std::vector<std::unique_ptr<LoadedPart>> spare_;
+  std::size_t loaded_bytes_ = 0;  // of loaded_ and current_
+  Decompressor decompressor_;
 };
 
-/// Returns the index of the topic in the list, and appends the topic if it is new. If several senders have
-/// topics of the same name, type and encoding, these become one topic, whose number of messages is the sum.
-std::size_t add_topic(std::vector<RecordedTopic>& topics, const RecordedTopic& topic);
+/// The topics of a recording. If several senders have topics of the same name, type and encoding, these
+/// become one topic, whose number of messages is the sum.
+class TopicList {
+ public:
+  /// Returns the index of the topic, which is appended if it is new. O(log n).
+  std::size_t add(const RecordedTopic& topic);
+
+  std::vector<RecordedTopic>& all() { return topics_; }
+  const std::vector<RecordedTopic>& all() const { return topics_; }
+
+ private:
+  std::vector<RecordedTopic> topics_;
+  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> numbers_;
+};
 
 }  // namespace pcl_bv::detail

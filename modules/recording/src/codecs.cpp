@@ -18,6 +18,10 @@ namespace {
 
 // Level 1 is fast. Recording must not slow down a stream.
 constexpr int kZstdLevel = 1;
+// A byte of zstd can become 20 000 bytes, but real data of more than 64 MiB is not compressed by more than
+// 1000.
+constexpr std::size_t kMaxZstdRatio = 1000, kAllowedZstdBytes = std::size_t{64} << 20;
+
 [[noreturn]] void refuse(const char* library, const std::string& what) {
   throw IoError(std::string(library) + ": " + what);
 }
@@ -113,6 +117,7 @@ void Decompressor::decompress(Compression compression, const std::byte* data, st
 
 void Decompressor::decompress_zstd(const std::byte* data, std::size_t size, std::vector<std::byte>& to,
                                    std::size_t max_bytes) {
+  max_bytes = std::min(max_bytes, std::max(kAllowedZstdBytes, kMaxZstdRatio * size));
   ZSTD_DCtx_reset(contexts_->zstd.get(), ZSTD_reset_session_only);
   // Limit the memory of zstd's window, because a frame of a few bytes can request 128 MiB. For less than 1
   // MiB of compressed data the limit is 8 MiB, which is enough for level 19. Otherwise the limit is 128 MiB.

@@ -42,7 +42,7 @@ class Decompressor {
                   std::vector<std::byte>& to);
 
   /// Decompresses zstd frames of unknown length. Throws IoError if they are damaged or cut, or if the result
-  /// has more than `max_bytes` bytes.
+  /// has more than `max_bytes` bytes, or more than 64 MiB and 1000 times the bytes of the frames.
   void decompress_zstd(const std::byte* data, std::size_t size, std::vector<std::byte>& to,
                        std::size_t max_bytes = SIZE_MAX);
 

@@ -154,7 +154,7 @@ void Db3Pages::read_row(std::uint64_t page, std::uint64_t cell) {
           static_cast<std::uint32_t>(big(PageBytes(bytes_, begin + local, usable_).take(4), 4));
     messages_.push_back(message);
   } else if (types.size() >= 4 && types[0] == 0 && is_text(types[1]) && is_text(types[2]) &&
-             is_text(types[3])) {
+             is_text(types[3]) && !topics_.contains(id)) {
     RecordedTopic topic;
     topic.name = take_text(values, types[1]);
     topic.type = ros2_type(take_text(values, types[2]));

@@ -131,15 +131,15 @@ class Db3Reader final : public RecordingReader {
     if (messages_without_topic_ > 0)
       add_warning(std::to_string(messages_without_topic_) + " messages of unknown topics are skipped");
     for (const Row& row : rows_)
-      ++topics_[row.topic].messages;
+      ++topics_.all()[row.topic].messages;
     std::stable_sort(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.time < b.time; });
-    wanted_.assign(topics_.size(), true);
+    wanted_.assign(topics().size(), true);
   }
 
-  const std::vector<RecordedTopic>& topics() const override { return topics_; }
+  const std::vector<RecordedTopic>& topics() const override { return topics_.all(); }
 
   void select(const std::vector<std::size_t>& topics) override {
-    std::vector<bool> wanted(topics_.size(), false);
+    std::vector<bool> wanted(topics_.all().size(), false);
     for (const std::size_t topic : topics)
       wanted.at(topic) = true;
     wanted_ = std::move(wanted);
@@ -176,7 +176,7 @@ class Db3Reader final : public RecordingReader {
   }
 
   void read_pages(const std::filesystem::path& file, const std::string& problem) {
-    topics_.clear();
+    topics_ = {};
     topic_of_.clear();
     rows_.clear();
     messages_without_topic_ = 0;
@@ -186,12 +186,12 @@ class Db3Reader final : public RecordingReader {
     std::int64_t index = 0;
     for (const Db3Pages::Message& message : pages_->messages())
       add(message.topic, Row{message.time, index++});
-    if (topics_.empty()) throw IoError(problem);
+    if (topics().empty()) throw IoError(problem);
     add_warning(problem + ": " + std::to_string(rows_.size()) +
                 " messages were recovered; those on damaged pages are lost");
   }
 
-  void add(std::int64_t id, const RecordedTopic& topic) { topic_of_[id] = add_topic(topics_, topic); }
+  void add(std::int64_t id, const RecordedTopic& topic) { topic_of_[id] = topics_.add(topic); }
   void add(std::int64_t topic, Row row) {
     const auto found = topic_of_.find(topic);
     if (found == topic_of_.end()) {
@@ -229,7 +229,7 @@ class Db3Reader final : public RecordingReader {
   std::unique_ptr<Database> database_;
   std::unique_ptr<Query> data_;      // declared after the database, which must outlive it
   std::unique_ptr<Db3Pages> pages_;  // set only if the file is damaged; used instead of database_ and data_
-  std::vector<RecordedTopic> topics_;
+  TopicList topics_;
   std::map<std::int64_t, std::size_t> topic_of_;
   std::uint64_t messages_without_topic_ = 0;
   std::vector<Row> rows_;  // sorted by time, equal times by id

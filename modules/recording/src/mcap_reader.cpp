@@ -21,9 +21,9 @@ class McapReader final : public ChunkedReader {
   explicit McapReader(const std::filesystem::path& path) : file_(path), index_(mcap::index_of(file_)) {
     std::uint64_t added = 0;
     add_warnings(index_.warnings, added);
-    std::vector<RecordedTopic> topics;
+    TopicList topics;
     for (const auto& [id, channel] : index_.channels)
-      topic_of_[id] = add_topic(topics, topic_of(channel));
+      topic_of_[id] = topics.add(topic_of(channel));
     std::vector<Part> parts;
     for (const mcap::Part& part : index_.parts) {
       Part& to = parts.emplace_back();
@@ -33,7 +33,7 @@ class McapReader final : public ChunkedReader {
           to.topics.push_back(found->second);
       }
     }
-    start(std::move(topics), std::move(parts));
+    start(std::move(topics.all()), std::move(parts));
   }
 
  private:
@@ -47,7 +47,7 @@ class McapReader final : public ChunkedReader {
   void load(std::size_t part, Buffers& buffers, std::vector<RecordedMessage>& messages) override {
     file_.require_unchanged();
     const auto unpack = [&](std::vector<std::byte>& to) {
-      return mcap::load_part(file_, index_.parts[part], buffers.decompressor, buffers.raw, to);
+      return mcap::load_part(file_, index_.parts[part], decompressor(), buffers.raw, to);
     };
     auto records =
         unpack_shared<mcap::Fields>(cache_, part_offset(part), buffers.shared, buffers.unpacked, unpack);

@@ -19,6 +19,8 @@ namespace pcl_bv::detail {
 namespace {
 
 constexpr std::size_t kMaxListedNames = 5;  // names in a message
+// Each address has a sweep that is being assembled. A packet with a false address must not take its memory.
+constexpr std::size_t kMaxAddresses = 256;
 
 std::string listed(const std::vector<std::string>& names) {
   std::string list;
@@ -169,6 +171,12 @@ struct PacketReader::State {
       note_undecodable(packet);
       return true;
     }
+    if (addresses.size() >= kMaxAddresses && !addresses.contains(packet.key())) {
+      if (!std::exchange(warned_of_addresses, true))
+        warnings.add("packets of more than " + std::to_string(kMaxAddresses) +
+                     " addresses: those of further ones are skipped");
+      return true;
+    }
     Address& address = addresses[packet.key()];
     if (address.name.empty()) address.name = packet.source();
     std::unique_ptr<SweepAssembler>& assembler = address.assemblers[*model];
@@ -244,7 +252,7 @@ struct PacketReader::State {
   std::uint64_t packet_warnings_added = 0, sweep_warnings_added = 0;
   std::optional<std::size_t> warnings_before_note;  // number of `warnings` that precede sensors_note
   std::string sensors_note;
-  bool done = false;
+  bool done = false, warned_of_addresses = false;
 };
 
 PacketReader::PacketReader(const std::filesystem::path& file, const std::string& sensor)

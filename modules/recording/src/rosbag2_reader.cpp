@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <fstream>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "chunked_reader.h"
@@ -51,7 +52,7 @@ class JoinedReader final : public RecordingReader {
         require_recording_file(file);
         member.reader = open_recording(file);
         for (const RecordedTopic& topic : member.reader->topics())
-          member.topics.push_back(add_topic(topics_, topic));
+          member.topics.push_back(topics_.add(topic));
         members_.push_back(std::move(member));
         files_.push_back(std::move(file));
       } catch (const IoError& error) {
@@ -59,18 +60,19 @@ class JoinedReader final : public RecordingReader {
         add_warning("skipped " + problem);
       }
     }
-    if (members_.empty()) throw IoError(printable(problem));
+    if (members_.empty()) throw IoError(message_line(problem));
   }
 
-  const std::vector<RecordedTopic>& topics() const override { return topics_; }
+  const std::vector<RecordedTopic>& topics() const override { return topics_.all(); }
 
   void select(const std::vector<std::size_t>& topics) override {
+    std::vector<bool> wanted(topics_.all().size(), false);
     for (const std::size_t topic : topics)
-      static_cast<void>(topics_.at(topic));
+      wanted.at(topic) = true;
     for (Member& member : members_) {
       std::vector<std::size_t> own;
       for (std::size_t i = 0; i < member.topics.size(); ++i) {
-        if (std::find(topics.begin(), topics.end(), member.topics[i]) != topics.end()) own.push_back(i);
+        if (wanted[member.topics[i]]) own.push_back(i);
       }
       member.reader->select(own);
     }
@@ -98,7 +100,7 @@ class JoinedReader final : public RecordingReader {
 
   std::vector<fs::path> files_;
   std::vector<Member> members_;
-  std::vector<RecordedTopic> topics_;
+  TopicList topics_;
   std::size_t at_ = 0;
 };
 
@@ -107,7 +109,9 @@ std::vector<fs::path> files_of(const fs::path& folder) {
   const fs::path metadata = folder / "metadata.yaml";
   std::vector<fs::path> files;
   try {
-    const YAML::Node root = YAML::Load(read_untrusted_text(metadata, kMaxMetadataBytes));
+    const std::string text = read_untrusted_text(metadata, kMaxMetadataBytes);
+    require_few_yaml_nodes(text);
+    const YAML::Node root = YAML::Load(text);
     for (const YAML::Node& file : root["rosbag2_bagfile_information"]["relative_file_paths"])
       files.push_back(folder /
                       fs::path(file.as<std::string>()).filename());  // old versions write the folder, too
@@ -234,8 +238,9 @@ std::unique_ptr<RecordingReader> open_rosbag2_folder(const fs::path& folder) {
     warnings.push_back(std::string(error.what()) + ": all files of the folder are read");
     files = there;
   }
+  const std::set<fs::path> named(files.begin(), files.end());
   for (const fs::path& file : there) {
-    if (std::find(files.begin(), files.end(), file) == files.end())
+    if (!named.contains(file))
       warnings.push_back(file.filename().string() + " is not in metadata.yaml and is not read");
   }
   return std::make_unique<JoinedReader>(std::move(files), warnings);

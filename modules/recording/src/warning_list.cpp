@@ -17,7 +17,7 @@ constexpr std::size_t kMaxListed = 10;
 
 void WarningList::add(std::string line) {
   if (lines_.size() < kMaxListed) {
-    lines_.push_back(detail::printable(std::move(line)));
+    lines_.push_back(detail::message_line(line));
   } else {
     add_unlisted(1);
   }
