@@ -90,15 +90,11 @@ PlyProperty read_property(const Words& words, std::string_view line) {
 struct Contents {
   std::optional<PlyEncoding> encoding;
   std::vector<PlyElement> elements;
-
-  std::vector<PlyElement>::const_iterator vertex() const {
-    return std::find_if(elements.begin(), elements.end(),
-                        [](const PlyElement& element) { return element.name == "vertex"; });
-  }
+  std::optional<std::size_t> vertex;  // index of the first element named vertex
 
   /// Returns whether the last element read follows the vertices. The properties of such an element do not
   /// matter.
-  bool last_follows_vertices() const { return elements.end() - vertex() > 1; }
+  bool last_follows_vertices() const { return vertex && *vertex + 1 < elements.size(); }
 };
 
 void read_line(const Words& words, std::string_view line, Contents& contents) {
@@ -107,6 +103,8 @@ void read_line(const Words& words, std::string_view line, Contents& contents) {
     contents.encoding = read_format(words, line);
   } else if (words[0] == "element") {
     contents.elements.push_back(read_element(words, line));
+    if (!contents.vertex && contents.elements.back().name == "vertex")
+      contents.vertex = contents.elements.size() - 1;
   } else if (words[0] == "property") {
     if (contents.elements.empty()) throw IoError("header: a property before any element");
     if (!contents.last_follows_vertices())
@@ -171,8 +169,8 @@ PlyHeader read_ply_header(const InputFile& file) {
     return read_contents(start, contents, header.data_offset);
   });
   if (!contents.encoding) throw IoError("header: no format line");
-  const auto vertex = contents.vertex();
-  if (vertex == contents.elements.end()) throw IoError("header: no element vertex");
+  if (!contents.vertex) throw IoError("header: no element vertex");
+  const auto vertex = contents.elements.cbegin() + static_cast<std::ptrdiff_t>(*contents.vertex);
   header.encoding = *contents.encoding;
   header.skipped.assign(contents.elements.cbegin(), vertex);
   header.vertex = *vertex;
