@@ -249,14 +249,15 @@ TEST(StreamConfig, AnErrorIsOneLineWhateverItQuotes) {
   EXPECT_THAT(config.validate(), testing::ElementsAre(HasSubstr("volumes: 'sphere?' is no method")));
 }
 
-TEST(StreamConfig, AnErrorQuotesAtMostTwoKilobytes) {
+TEST(StreamConfig, AnErrorKeepsTheEndsOfALongKey) {
   std::string key;
   while (key.size() < 100'000)
     key += "\u00e4";
   const std::string error = error_of("? " + key + "\n: 1", "");
-  EXPECT_LE(error.size(), 2003U);
+  EXPECT_LE(error.size(), 200U);
   EXPECT_THAT(error, testing::StartsWith("unknown key '\u00e4"));
-  EXPECT_THAT(error, testing::EndsWith("\u00e4..."));
+  EXPECT_THAT(error, HasSubstr("\u00e4...\u00e4"));
+  EXPECT_THAT(error, testing::EndsWith("\u00e4'"));
 }
 
 TEST(StreamConfig, DoesNotDependOnTheLocale) {

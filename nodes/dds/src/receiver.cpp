@@ -169,10 +169,12 @@ class Receiver final : public MessageReceiver {
       subscribe(static_cast<std::size_t>(other - types_.begin()));
       others.erase(*other);
     }
+    constexpr std::size_t most = 20;
     for (const std::string& type : others)
-      if (mismatched_types_.insert(type).second)
+      if (mismatched_types_.size() < most && mismatched_types_.insert(type).second)
         pending_warnings_.push_back("published as " + ros_type(type) + ": publisher ignored, expected " +
-                                    ros_type(types_[type_]));
+                                    ros_type(types_[type_]) +
+                                    (mismatched_types_.size() < most ? "" : "; further types are not named"));
   }
 
   // Reports publishers with incompatible QoS, at most once a second.

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>
@@ -26,19 +25,13 @@ namespace {
 // Line numbers of keys in the file, from 1. 0 means that the key is not in the file.
 using Lines = std::map<std::string, int>;
 
-// Maximum length of an error in bytes. `what` may quote keys and values of the file, which may be a megabyte
-// long and contain line ends.
-constexpr std::size_t kMaxWhat = 2000;
+// Maximum number of keys, of rows, and of entries of a list in a row.
+constexpr std::size_t kMaxEntries = 4096;
 
-[[noreturn]] void fail(const std::string& name, int line, std::string what) {
+// `what` may quote keys and values of the file, which may be a megabyte long and contain line ends.
+[[noreturn]] void fail(const std::string& name, int line, const std::string& what) {
   const std::string where = line > 0 ? ": line " + std::to_string(line) : "";
-  if (what.size() > kMaxWhat) {
-    std::size_t end = kMaxWhat;
-    while (end > 0 && (what[end] & 0xC0) == 0x80)  // keeps characters of UTF-8 whole
-      --end;
-    what.replace(end, std::string::npos, "...");
-  }
-  throw ConfigError(printable(name.empty() ? what : name + where + ": " + what));
+  throw ConfigError(message_line(name.empty() ? what : name + where + ": " + what));
 }
 
 // Reads a number with a decimal point in every locale. yaml-cpp follows the locale of the program, but knows
@@ -80,6 +73,7 @@ class Reader {
     const YAML::Node* const list = take(std::string(setting.key));
     if (list == nullptr) return;
     rows.clear();
+    require_few(*list, std::string(setting.key));
     const std::string key = std::string(setting.key) + ": ";
     constexpr RowNames names = row_names<Row>();
     if (!list->IsSequence()) fail_at(*list, key + shown(*list) + " is not a list of " + names.many);
@@ -128,12 +122,15 @@ class Reader {
       } else if (!nodes_.emplace(key, item.second).second) {
         fail(name_, line(item.first), key + ": is given twice");
       }
+      if (nodes_.size() + maps_.size() > kMaxEntries)
+        fail(name_, line(item.first), "has more than " + std::to_string(kMaxEntries) + " keys");
     }
   }
 
   template <ConfigRow Row>
   void read_row(const YAML::Node& node, const std::string& where, Row& row) const {
     std::map<std::string, YAML::Node> fields;
+    require_few(node, where.substr(0, where.size() - 2));
     for (const auto& item : node) {
       const auto key = item.first.as<std::string>();
       if (!fields.emplace(key, item.second).second) fail_at(item.first, where + key + ": is given twice");
@@ -153,6 +150,12 @@ class Reader {
     if (fields.empty()) return;
     const auto& [key, value] = *fields.begin();
     fail_at(value, where + "unknown key '" + key + "' of " + row_names<Row>().one);
+  }
+
+  // An alias repeats a list of any length with a few bytes.
+  void require_few(const YAML::Node& list, const std::string& key) const {
+    if (list.size() > kMaxEntries)
+      fail_at(list, key + ": has more than " + std::to_string(kMaxEntries) + " entries");
   }
 
   [[noreturn]] void fail_at(const YAML::Node& node, const std::string& what) const {
@@ -196,6 +199,8 @@ class Reader {
   }
   static void read(const Setting& /*any*/, const YAML::Node& node, std::vector<double>& numbers) {
     if (!node.IsSequence()) reject(node, "a list of numbers");
+    if (node.size() > kMaxEntries)
+      throw std::invalid_argument("has more than " + std::to_string(kMaxEntries) + " entries");
     numbers.clear();
     for (const YAML::Node& element : node)
       if (!read_yaml_number(element, numbers.emplace_back())) reject(element, "a number");
@@ -227,6 +232,8 @@ class Reader {
 
   static std::string elements(const YAML::Node& node, const std::string& allowed) {
     if (!node.IsSequence()) reject(node, allowed);
+    if (node.size() > kMaxEntries)
+      throw std::invalid_argument("has more than " + std::to_string(kMaxEntries) + " entries");
     std::string list;
     for (const YAML::Node& element : node)
       list += (list.empty() ? "" : ",") + scalar(element);
@@ -241,21 +248,11 @@ class Reader {
 };
 
 // Stores the line where the last document begins.
-class DocumentStart final : public YAML::EventHandler {
+class DocumentStart final : public YamlCounter {
  public:
   int line = 0;  // from 1
 
   void OnDocumentStart(const YAML::Mark& mark) override { line = mark.line + 1; }
-  void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
-  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                       YAML::EmitterStyle::value) override {}
-  void OnSequenceEnd() override {}
-  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
-  }
-  void OnMapEnd() override {}
 };
 
 // Returns the line where a second document begins, or 0 if there is none. YAML::LoadAll() is not used,
@@ -317,6 +314,8 @@ StreamConfig parse_stream_config(const std::string& text, const std::string& nam
     reader.reject(problems_of(config));
   } catch (const YAML::Exception& error) {
     fail(name, 0, yaml_error_message(error));
+  } catch (const IoError& error) {
+    fail(name, 0, error.what());
   }
   return config;
 }

@@ -109,9 +109,9 @@ class LiveTopics::Inbox {
     const auto known = std::find(types_.begin(), types_.end(), type);
     const std::lock_guard lock(mutex_);
     if (known == types_.end()) {
-      if (others_.insert(type).second)
+      if (others_.size() < 20 && others_.insert(type).second)
         warnings_.push_back(
-            printable("published as " + type + ": messages ignored, expected " + types_.front()));
+            message_line("published as " + type + ": messages ignored, expected " + types_.front()));
       return;
     }
     ReceivedMessage message;
@@ -155,7 +155,8 @@ std::unique_ptr<MessageReceiver> LiveTopics::receiver(const std::string& topic,
                                                       Delivery delivery) {
   if (types.empty()) throw std::invalid_argument("a receiver needs a type of messages");
   std::string problem;
-  if (!ros::names::validate(topic, problem)) throw std::invalid_argument(printable(topic + ": " + problem));
+  if (!ros::names::validate(topic, problem))
+    throw std::invalid_argument(message_line(topic + ": " + problem));
   inboxes_.push_back(std::make_shared<Inbox>(topic, types, delivery));
   if (!inboxes_.back()->has_clouds()) inboxes_.back()->subscribe(node_);
   return std::make_unique<Receiver>(inboxes_.back());

@@ -110,7 +110,7 @@ void CloudMerger::warn_of_times(const MountedCloud& cloud, const DeskewTimes& ti
   if (times.problem == DeskewTimes::Problem::no_time && has_any_return(cloud.frame->points))
     warning = "no point has a time";
   if (warning.empty() || !warned_.insert(cloud.name).second) return;
-  warnings_.push_back(printable(cloud.name + ": " + warning));
+  warnings_.push_back(message_line(cloud.name + ": " + warning));
 }
 
 // Writes the seconds of each point after the stamp of the merged cloud.

@@ -86,8 +86,18 @@ SensorInput open_sensor(const NamedTopic& named, const RigConfig& rig, ReplayOpt
   return input;
 }
 
+// Each sensor opens its recording.
+void require_few_sensors(std::size_t sensors) {
+  constexpr std::size_t most = 256;
+  if (sensors > most)
+    throw std::invalid_argument("rig.sensors: the rig has " + std::to_string(sensors) +
+                                " topics with clouds; at most " + std::to_string(most) +
+                                " are allowed: name them in rig.sensors");
+}
+
 void check_rig(const RigConfig& rig) {
   throw_if_any(problems_of(rig));
+  require_few_sensors(rig.sensors.size());
   if (rig.frame.empty()) throw std::invalid_argument("rig.frame is empty");
 }
 
@@ -110,27 +120,28 @@ void check_sensors_have_one_source(const RigConfig& rig, const std::vector<Named
       if (is_for(sensor, named)) having.push_back(named.source);
     if (having.size() == 1) continue;
     if (having.size() > 1)
-      throw std::invalid_argument(printable("rig.sensors: " + having[0] + " and " + having[1] +
-                                            " have the topic " + sensor.topic +
-                                            "; give each of them a row with `source`"));
-    std::string known;
+      throw std::invalid_argument(message_line("rig.sensors: " + having[0] + " and " + having[1] +
+                                               " have the topic " + sensor.topic +
+                                               "; give each of them a row with `source`"));
+    std::vector<std::string> known;
     for (const NamedTopic& named : topics)
-      known += (known.empty() ? "" : ", ") + named.topic;
-    throw std::invalid_argument(printable("rig.sensors: no source has the topic " + sensor.topic +
-                                          (known.empty() ? "" : "; there are " + known)));
+      known.push_back(named.topic);
+    throw std::invalid_argument(message_line("rig.sensors: no source has the topic " + sensor.topic +
+                                             (known.empty() ? "" : "; there are " + name_list(known))));
   }
 }
 
 void check_recorded_odometry(const std::vector<std::string>& sources, const std::string& odometry) {
-  std::string known;
+  std::vector<std::string> known;
   for (const std::string& source : sources) {
     for (const std::string& topic : recorded_odometry_topics(source)) {
       if (topic == odometry) return;
-      known.append(known.empty() ? "; there are " : ", ").append(topic);
+      known.push_back(topic);
     }
   }
-  throw std::invalid_argument(printable("rig.odometry: no recording has the topic " + odometry +
-                                        " of type nav_msgs/msg/Odometry" + known));
+  throw std::invalid_argument(message_line("rig.odometry: no recording has the topic " + odometry +
+                                           " of type nav_msgs/msg/Odometry" +
+                                           (known.empty() ? "" : "; there are " + name_list(known))));
 }
 
 // Adds the fixed joints of the URDF and the transforms of recordings and live topics.
@@ -175,6 +186,7 @@ std::unique_ptr<FrameSource> open_rig(const std::vector<std::string>& sources, c
   ReplayOptions options = given;
   options.own_stamps = given.own_stamps || (!sources.empty() && is_recorded(sources.front()));
   const std::vector<NamedTopic> topics = topics_of(sources, rig, options);
+  require_few_sensors(topics.size());
   check_sensors_have_one_source(rig, topics);
   if (topics.empty()) throw std::invalid_argument("open_rig: no source");
   RigInputs inputs;

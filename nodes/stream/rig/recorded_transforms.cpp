@@ -83,7 +83,7 @@ class RecordedTransforms final : public TransformFeed {
  public:
   RecordedTransforms(std::unique_ptr<RecordingReader> reader, TransformTopics topics)
       : reader_(std::move(reader)), fixed_(std::move(topics.fixed)), changing_(std::move(topics.changing)) {
-    if (!topics.warning.empty()) warnings_.push_back(printable(topics.warning));
+    if (!topics.warning.empty()) warnings_.push_back(message_line(topics.warning));
   }
 
   // Fixed transforms may be recorded late, for example if the recording was started late. They hold for the
@@ -144,7 +144,7 @@ class RecordedTransforms final : public TransformFeed {
       warning = error.what();
     }
     if (!warning.empty() && !std::exchange(warned_, true))
-      warnings_.push_back(printable(topic.name + ": " + warning));
+      warnings_.push_back(message_line(topic.name + ": " + warning));
   }
 
   std::unique_ptr<RecordingReader> reader_;

@@ -58,8 +58,8 @@ void RigSource::add_pose(Frame& frame) {
   if (found.pose || found.problem.empty()) {
     frames_without_pose_ = 0;
   } else if (is_power_of_ten(++frames_without_pose_)) {
-    warnings_.push_back(printable(std::to_string(frames_without_pose_) + " frames without a pose in " +
-                                  rig_.fixed_frame + ": " + found.problem));
+    warnings_.push_back(message_line(std::to_string(frames_without_pose_) + " frames without a pose in " +
+                                     rig_.fixed_frame + ": " + found.problem));
   }
 }
 

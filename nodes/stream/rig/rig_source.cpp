@@ -63,7 +63,7 @@ void RigSource::begin_repetition() {
 }
 
 void RigSource::throw_lost(Sensor& sensor, Frame cloud, const std::string& problem) {
-  sensor.problem = printable(problem);
+  sensor.problem = message_line(problem);
   cloud.file = sensor.input.name;
   cloud.header.seq = seq_++;
   throw FrameError(std::move(cloud), sensor.problem);
@@ -103,7 +103,7 @@ void RigSource::drop_jumped(Sensor& sensor) {
 }
 
 void RigSource::warn(const Sensor& sensor, const std::string& what) {
-  if (!what.empty()) warnings_.push_back(printable(sensor.input.name + ": " + what));
+  if (!what.empty()) warnings_.push_back(message_line(sensor.input.name + ": " + what));
 }
 
 void RigSource::read_cloud(Sensor& sensor) {

@@ -63,7 +63,7 @@ class LiveTransforms final : public TransformFeed {
         warning = error.what();
       }
       if (warning.empty() || std::exchange(topic.warned, true)) continue;
-      warnings_.push_back(printable(topic.name + ": " + warning));
+      warnings_.push_back(message_line(topic.name + ": " + warning));
     }
   }
 

@@ -4,6 +4,7 @@
 #include "transforms.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "pcl_bv/io/number_text.h"
 #include "pcl_bv/io/untrusted_text.h"
@@ -19,8 +20,21 @@ std::string without_slash(const std::string& name) {
   return name.starts_with('/') ? name.substr(1) : name;
 }
 
-bool is_earlier(const StampedPose& pose, std::int64_t stamp_ns) {
-  return pose.first < stamp_ns;
+// Returns the pose at a time. `after` is the first of the poses that is not earlier.
+template <typename Poses>
+std::optional<Pose> interpolated(const Poses& poses, typename Poses::const_iterator after,
+                                 std::int64_t stamp_ns) {
+  if (after != poses.end() && after->first == stamp_ns) return after->second;
+  if (after == poses.begin() || after == poses.end()) return std::nullopt;
+  const auto before = std::prev(after);
+  if (after->first - before->first > kMaxPoseGap) return std::nullopt;
+  const double part =
+      static_cast<double>(stamp_ns - before->first) / static_cast<double>(after->first - before->first);
+  const Eigen::Quaterniond from(before->second.linear()), to(after->second.linear());
+  Pose pose = Pose::Identity();
+  pose.linear() = from.slerp(part, to).normalized().toRotationMatrix();
+  pose.translation() = (1 - part) * before->second.translation() + part * after->second.translation();
+  return pose;
 }
 
 }  // namespace
@@ -30,18 +44,7 @@ std::string seconds_text(std::int64_t nanoseconds) {
 }
 
 std::optional<Pose> pose_at(const std::vector<StampedPose>& poses, std::int64_t stamp_ns) {
-  const auto after = std::lower_bound(poses.begin(), poses.end(), stamp_ns, is_earlier);
-  if (after != poses.end() && after->first == stamp_ns) return after->second;
-  if (after == poses.begin() || after == poses.end()) return std::nullopt;
-  const auto before = after - 1;
-  if (after->first - before->first > kMaxPoseGap) return std::nullopt;
-  const double part =
-      static_cast<double>(stamp_ns - before->first) / static_cast<double>(after->first - before->first);
-  const Eigen::Quaterniond from(before->second.linear()), to(after->second.linear());
-  Pose pose = Pose::Identity();
-  pose.linear() = from.slerp(part, to).normalized().toRotationMatrix();
-  pose.translation() = (1 - part) * before->second.translation() + part * after->second.translation();
-  return pose;
+  return interpolated(poses, std::ranges::lower_bound(poses, stamp_ns, {}, &StampedPose::first), stamp_ns);
 }
 
 std::optional<std::size_t> Transforms::index_of(const std::string& name) const {
@@ -57,7 +60,8 @@ std::optional<std::size_t> Transforms::make_node(const std::string& name) {
 }
 
 void Transforms::warn(Node& node, const std::string& what) {
-  if (!std::exchange(node.warned, true)) warnings_.push_back(printable("frame " + node.name + ": " + what));
+  if (!std::exchange(node.warned, true))
+    warnings_.push_back(message_line("frame " + node.name + ": " + what));
 }
 
 std::vector<std::size_t> Transforms::ancestors(std::size_t node) const {
@@ -129,18 +133,12 @@ void Transforms::add(const std::string& parent, const std::string& child, std::i
   if (preferred) prefer(parent, child);
   Node* const node = edge(parent, child);
   if (node == nullptr || node->fixed || node->preferred != preferred) return;
-  std::vector<StampedPose>& poses = node->timed;
-  if (!poses.empty() && stamp_ns < poses.back().first - kRestart) poses.clear();
-  const auto at = std::lower_bound(poses.begin(), poses.end(), stamp_ns, is_earlier);
-  if (at != poses.end() && at->first == stamp_ns) {
-    at->second = pose;
-    return;
-  }
-  poses.insert(at, {stamp_ns, pose});
-  // Twice the length is stored before the old half is erased, so that an addition takes constant time.
-  if (poses.back().first - poses.front().first < 2 * kStoredTransforms) return;
-  poses.erase(poses.begin(), std::lower_bound(poses.begin(), poses.end(),
-                                              poses.back().first - kStoredTransforms, is_earlier));
+  std::map<std::int64_t, Pose>& poses = node->timed;
+  if (!poses.empty() && stamp_ns < poses.rbegin()->first - kRestart) poses.clear();
+  poses.insert_or_assign(poses.end(), stamp_ns, pose);
+  // Twice the length is stored before the old half is erased, so that the pose of a late cloud is still known.
+  if (poses.rbegin()->first - poses.begin()->first < 2 * kStoredTransforms) return;
+  poses.erase(poses.begin(), poses.lower_bound(poses.rbegin()->first - kStoredTransforms));
 }
 
 // Returns the pose of the first frame of `chain` in `ancestor`, a frame of the chain.
@@ -149,14 +147,15 @@ std::optional<Pose> Transforms::pose_in(const std::vector<std::size_t>& chain, s
   Pose pose = Pose::Identity();
   for (std::size_t i = 0; chain[i] != ancestor; ++i) {
     const Node& node = nodes_[chain[i]];
-    const std::optional<Pose> step = node.fixed ? node.fixed : pose_at(node.timed, stamp_ns);
+    const std::optional<Pose> step =
+        node.fixed ? node.fixed : interpolated(node.timed, node.timed.lower_bound(stamp_ns), stamp_ns);
     if (!step) {
-      found.pending = node.timed.empty() || stamp_ns > node.timed.back().first;
+      found.pending = node.timed.empty() || stamp_ns > node.timed.rbegin()->first;
       found.problem =
           "no pose of " + node.name + " in " + nodes_[*node.parent].name + " at " + seconds_text(stamp_ns);
       if (!node.timed.empty())
-        found.problem += "; they are known from " + seconds_text(node.timed.front().first) + " to " +
-                         seconds_text(node.timed.back().first) +
+        found.problem += "; they are known from " + seconds_text(node.timed.begin()->first) + " to " +
+                         seconds_text(node.timed.rbegin()->first) +
                          "; gaps longer than 0.5 s are not interpolated";
       return std::nullopt;
     }
@@ -176,11 +175,14 @@ FoundTransform Transforms::find(const std::string& target, const std::string& so
   const auto from = index_of(source), to = index_of(target);
   if (!from || !to) {
     found.problem = "no transform names the frame " + (from ? target : source);
+    if (warned_of_frames_) found.problem += ", of the first " + std::to_string(kMaxFrames) + " frames";
     return found;
   }
   const std::vector<std::size_t> above_source = ancestors(*from), above_target = ancestors(*to);
-  const auto common =
-      std::find_first_of(above_source.begin(), above_source.end(), above_target.begin(), above_target.end());
+  std::vector<bool> is_above_target(nodes_.size());
+  for (const std::size_t node : above_target)
+    is_above_target[node] = true;
+  const auto common = std::ranges::find_if(above_source, [&](auto node) { return is_above_target[node]; });
   if (common == above_source.end()) {
     found.problem = "the frames " + source + " and " + target + " are not connected; their root frames are " +
                     nodes_[above_source.back()].name + " and " + nodes_[above_target.back()].name;

@@ -66,7 +66,7 @@ class Transforms {
     std::string name;
     std::optional<std::size_t> parent;
     std::optional<Pose> fixed;
-    std::vector<StampedPose> timed;
+    std::map<std::int64_t, Pose> timed;
     bool final = false, warned = false, preferred = false;
   };
 

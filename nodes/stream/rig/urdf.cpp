@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
@@ -23,6 +24,10 @@ namespace {
 using tinyxml2::XMLElement;
 
 constexpr std::size_t kMaxUrdfBytes = std::size_t{16} << 20;
+// tinyxml2 compares each attribute with all previous ones of its element. URDF has at most six.
+constexpr std::size_t kMaxAttributes = 100;
+constexpr std::uintmax_t kMaxMeshBytes = std::uintmax_t{2} << 30;  // of all meshes together
+constexpr std::size_t kMaxWarnings = 20;
 
 std::string attribute(const XMLElement& element, const char* name) {
   const char* const value = element.Attribute(name);
@@ -30,7 +35,40 @@ std::string attribute(const XMLElement& element, const char* name) {
 }
 
 [[noreturn]] void fail_at(const XMLElement& element, const std::string& what) {
-  throw IoError(printable("line " + std::to_string(element.GetLineNum()) + ": " + what));
+  throw IoError(message_line("line " + std::to_string(element.GetLineNum()) + ": " + what));
+}
+
+// Throws IoError if an element has too many attributes, before the text is parsed.
+void require_few_attributes(std::string_view text) {
+  const auto skip = [&](std::size_t at, std::string_view end) {
+    return std::min(text.find(end, at), text.size());
+  };
+  for (std::size_t at = text.find('<'); at < text.size(); at = skip(at, "<")) {
+    if (text.substr(at).starts_with("<!--")) {
+      at = skip(at, "-->");
+    } else if (text.substr(at).starts_with("<![CDATA[")) {
+      at = skip(at, "]]>");
+    } else if (text.substr(at).starts_with("<?")) {
+      at = skip(at, "?>");
+    } else {
+      const std::size_t begin = at;
+      std::size_t attributes = 0;
+      for (; at < text.size() && text[at] != '>'; ++at) {
+        if (text[at] != '"' && text[at] != '\'') continue;
+        at = skip(at + 1, text.substr(at, 1));
+        if (++attributes > kMaxAttributes)
+          throw IoError(position_in(text, begin) + ": an element has more than " +
+                        std::to_string(kMaxAttributes) + " attributes");
+      }
+    }
+  }
+}
+
+// Adds a warning. Of many warnings the rest is only counted in the last line.
+void warn(std::vector<std::string>& warnings, std::size_t& count, const std::string& line) {
+  if (++count <= kMaxWarnings) return warnings.push_back(message_line(line));
+  if (count > kMaxWarnings + 1) warnings.pop_back();
+  warnings.push_back(std::to_string(count - kMaxWarnings) + " more parts of the URDF have problems");
 }
 
 // Returns the numbers of an attribute. A missing attribute gives `missing`.
@@ -105,11 +143,25 @@ struct UnreadableShape : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-AnyVolume mesh_volume(const XMLElement& mesh, const Pose& pose, const std::filesystem::path& urdf) {
+// The meshes that were read. Many links may have the same mesh.
+struct MeshBytes {
+  std::uintmax_t read = 0;
+
+  void add(const std::filesystem::path& file) {
+    std::error_code unknown;
+    if (std::filesystem::is_regular_file(file, unknown)) read += std::filesystem::file_size(file, unknown);
+    if (read > kMaxMeshBytes) throw IoError("all meshes together have more than 2 GiB");
+  }
+};
+
+AnyVolume mesh_volume(const XMLElement& mesh, const Pose& pose, const std::filesystem::path& urdf,
+                      MeshBytes& bytes) {
   const Eigen::Vector3d scale = vector_of(mesh, "scale", 1);
   const std::string name = attribute(mesh, "filename");
   try {
-    std::vector<Eigen::Vector3d> vertices = read_mesh_vertices(mesh_file(name, urdf));
+    const std::filesystem::path file = mesh_file(name, urdf);
+    bytes.add(file);
+    std::vector<Eigen::Vector3d> vertices = read_mesh_vertices(file);
     for (Eigen::Vector3d& vertex : vertices)
       vertex = pose * Eigen::Vector3d(scale.cwiseProduct(vertex));
     const Fitted<Hull> hull = fit_hull(view(vertices));
@@ -121,7 +173,8 @@ AnyVolume mesh_volume(const XMLElement& mesh, const Pose& pose, const std::files
 }
 
 // Returns the volume of an element `geometry`.
-AnyVolume volume_of(const XMLElement& geometry, const Pose& pose, const std::filesystem::path& urdf) {
+AnyVolume volume_of(const XMLElement& geometry, const Pose& pose, const std::filesystem::path& urdf,
+                    MeshBytes& bytes) {
   if (const XMLElement* const box = geometry.FirstChildElement("box")) {
     const Eigen::Vector3d size = vector_of(*box, "size", -1);
     if (!(size.minCoeff() > 0)) fail_at(*box, "size is not above 0");
@@ -133,12 +186,13 @@ AnyVolume volume_of(const XMLElement& geometry, const Pose& pose, const std::fil
     return Cylinder(pose.translation(), pose.linear().col(2), length_of(*cylinder, "radius"),
                     length_of(*cylinder, "length") / 2);
   if (const XMLElement* const mesh = geometry.FirstChildElement("mesh"))
-    return mesh_volume(*mesh, pose, urdf);
+    return mesh_volume(*mesh, pose, urdf, bytes);
   throw UnreadableShape("line " + std::to_string(geometry.GetLineNum()) +
                         ": the geometry is not a box, sphere, cylinder or mesh");
 }
 
-void read_shapes(const XMLElement& link, const std::filesystem::path& file, Urdf& urdf) {
+void read_shapes(const XMLElement& link, const std::filesystem::path& file, MeshBytes& bytes,
+                 std::size_t& problems, Urdf& urdf) {
   const std::string name = attribute(link, "name");
   for (const XMLElement* shape = link.FirstChildElement("collision"); shape != nullptr;
        shape = shape->NextSiblingElement("collision")) {
@@ -146,9 +200,9 @@ void read_shapes(const XMLElement& link, const std::filesystem::path& file, Urdf
     if (geometry == nullptr) fail_at(*shape, "a collision has no geometry");
     const Pose pose = origin_of(*shape);
     try {
-      urdf.shapes.push_back({name, volume_of(*geometry, pose, file)});
+      urdf.shapes.push_back({name, volume_of(*geometry, pose, file, bytes)});
     } catch (const UnreadableShape& error) {
-      urdf.warnings.push_back(printable("link " + name + ": " + error.what() + "; this shape is left out"));
+      warn(urdf.warnings, problems, "link " + name + ": " + error.what() + "; this shape is left out");
     }
   }
 }
@@ -168,6 +222,7 @@ UrdfJoint joint_of(const XMLElement& element) {
 Urdf read_urdf(const std::filesystem::path& file, UrdfContent content) {
   try {
     const std::string text = read_untrusted_text(file, kMaxUrdfBytes);
+    require_few_attributes(text);
     tinyxml2::XMLDocument document;  // limits the depth of elements
     if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS)
       throw IoError(std::string("not XML: ") + document.ErrorName() + " at line " +
@@ -175,11 +230,14 @@ Urdf read_urdf(const std::filesystem::path& file, UrdfContent content) {
     const XMLElement* const robot = document.FirstChildElement("robot");
     if (robot == nullptr) throw IoError("not a URDF: it has no element <robot>");
     Urdf urdf;
+    MeshBytes bytes;
+    std::size_t problems = 0;
     for (const XMLElement* element = robot->FirstChildElement(); element != nullptr;
          element = element->NextSiblingElement()) {
       const std::string name = element->Name();
       if (name == "joint") urdf.joints.push_back(joint_of(*element));
-      if (name == "link" && content == UrdfContent::joints_and_shapes) read_shapes(*element, file, urdf);
+      if (name == "link" && content == UrdfContent::joints_and_shapes)
+        read_shapes(*element, file, bytes, problems, urdf);
     }
     return urdf;
   } catch (const IoError& error) {
@@ -196,21 +254,25 @@ std::vector<AnyVolume> Urdf::volumes_in(const std::string& frame, std::vector<st
   Transforms all;
   for (const UrdfJoint& joint : joints)
     all.add_fixed(joint.parent, joint.child, joint.pose);
-  const bool named = shapes.end() != std::find_if(shapes.begin(), shapes.end(), [&](const UrdfShape& shape) {
-                       return shape.link == frame;
-                     });
+  const bool named =
+      std::any_of(shapes.begin(), shapes.end(), [&](const UrdfShape& shape) { return shape.link == frame; });
   const bool joined = std::any_of(joints.begin(), joints.end(), [&](const UrdfJoint& joint) {
     return joint.parent == frame || joint.child == frame;
   });
   if (!named && !joined) throw IoError("the URDF has no link " + frame);
+  std::size_t count = 0;
+  for (const std::string& line : all.take_warnings())
+    warn(problems, count, line);
+  std::map<std::string, FoundTransform> found;  // by link: a link may have many shapes
   std::vector<AnyVolume> volumes;
   for (const UrdfShape& shape : shapes) {
-    const FoundTransform found = all.find(frame, shape.link, 0);
-    if (!found.pose) {
-      problems.push_back(printable("link " + shape.link + " is left out: " + found.problem));
+    const auto [at, first] = found.try_emplace(shape.link);
+    if (first) at->second = all.find(frame, shape.link, 0);
+    if (!at->second.pose) {
+      if (first) warn(problems, count, "link " + shape.link + " is left out: " + at->second.problem);
       continue;
     }
-    const Eigen::Isometry3d pose(*found.pose);
+    const Eigen::Isometry3d pose(*at->second.pose);
     volumes.push_back(std::visit(
         [&](const auto& volume) -> AnyVolume {
           using V = std::decay_t<decltype(volume)>;
@@ -223,8 +285,8 @@ std::vector<AnyVolume> Urdf::volumes_in(const std::string& frame, std::vector<st
   }
   for (const UrdfJoint& joint : joints)
     if (joint.movable)
-      problems.push_back(
-          printable("joint " + joint.name + " moves: the links below it are placed as at its position 0"));
+      warn(problems, count,
+           "joint " + joint.name + " moves: the links below it are placed as at its position 0");
   return volumes;
 }
 

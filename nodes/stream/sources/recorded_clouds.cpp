@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -29,23 +30,22 @@ bool has_clouds(const RecordedTopic& topic) {
 }
 
 std::string clouds_of(const std::vector<RecordedTopic>& topics) {
-  std::string list;
-  for (const RecordedTopic& topic : topics) {
-    if (has_clouds(topic)) list += (list.empty() ? "" : ", ") + topic.name;
-  }
-  return printable(list);
+  std::vector<std::string> names;
+  for (const RecordedTopic& topic : topics)
+    if (has_clouds(topic)) names.push_back(topic.name);
+  return name_list(names);
 }
 
 // Returns a list of the topics with their types, such as "/scan (sensor_msgs/msg/LaserScan)". Users
 // need the type to convert the messages.
 std::string topics_with_types(const std::vector<RecordedTopic>& topics) {
-  std::string list;
+  std::vector<std::string> names;
   for (const RecordedTopic& topic : topics) {
     const bool usual = topic.encoding == "cdr" || topic.encoding == "ros1" || topic.encoding.empty();
-    list += (list.empty() ? "" : ", ") + topic.name + " (" +
-            (topic.type.empty() ? "of no type" : topic.type) + (usual ? "" : ", " + topic.encoding) + ')';
+    names.push_back(topic.name + " (" + (topic.type.empty() ? "of no type" : topic.type) +
+                    (usual ? "" : ", " + topic.encoding) + ')');
   }
-  return list.empty() ? "none" : printable(list);
+  return names.empty() ? "none" : name_list(names);
 }
 
 }  // namespace
@@ -62,20 +62,21 @@ std::size_t cloud_topic(const RecordingReader& reader, const std::string& name) 
   if (!name.empty()) {
     const auto is_named = [&](const RecordedTopic& topic) { return topic.name == name; };
     const auto found = std::find_if(topics.begin(), topics.end(), is_named);
-    if (found == topics.end()) throw std::invalid_argument("no topic " + name + "; " + others);
+    if (found == topics.end()) throw std::invalid_argument(message_line("no topic " + name + "; " + others));
     // Several senders may use one name for messages of several types.
     const auto cloud = std::find_if(topics.begin(), topics.end(), [&](const RecordedTopic& topic) {
       return is_named(topic) && has_clouds(topic);
     });
     if (cloud != topics.end()) return number(cloud);
-    throw std::invalid_argument("topic " + name + " is of " +
-                                (found->type.empty() ? "no type" : found->type) + " (" + found->encoding +
-                                "), not of clouds; " + others);
+    throw std::invalid_argument(message_line("topic " + name + " is of " +
+                                             (found->type.empty() ? "no type" : found->type) + " (" +
+                                             found->encoding + "), not of clouds; " + others));
   }
   const auto count = std::count_if(topics.begin(), topics.end(), has_clouds);
   if (count > 1)
-    throw std::invalid_argument("several topics have clouds: " + clouds + "; choose one with --topic");
-  if (count == 0) throw IoError("no topic with clouds; topics: " + topics_with_types(topics));
+    throw std::invalid_argument(
+        message_line("several topics have clouds: " + clouds + "; choose one with --topic"));
+  if (count == 0) throw IoError(message_line("no topic with clouds; topics: " + topics_with_types(topics)));
   return number(std::find_if(topics.begin(), topics.end(), has_clouds));
 }
 
@@ -95,9 +96,9 @@ std::vector<std::string> recorded_cloud_topics(const std::string& recording) {
     return names;
   }
   const auto reader = open_named_recording(recording);
+  std::set<std::string_view> known;
   for (const RecordedTopic& topic : reader->topics())
-    if (has_clouds(topic) && std::find(names.begin(), names.end(), topic.name) == names.end())
-      names.push_back(topic.name);
+    if (has_clouds(topic) && known.insert(topic.name).second) names.push_back(topic.name);
   return names;
 }
 
