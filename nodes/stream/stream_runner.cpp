@@ -16,6 +16,7 @@
 #include <utility>
 #include <variant>
 
+#include "pcl_bv/io/untrusted_text.h"
 #include "pipeline/config/check.h"
 
 namespace pcl_bv {
@@ -40,7 +41,7 @@ std::optional<std::string> exception_message(Do&& what) {
   try {
     what();
   } catch (const std::exception& error) {
-    return error.what();
+    return reason_of(error);
   } catch (...) {
     return "an exception that is no std::exception";
   }

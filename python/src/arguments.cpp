@@ -4,6 +4,7 @@
 #include "arguments.h"
 
 #include "arrays.h"
+#include "pcl_bv/io/untrusted_text.h"
 
 namespace pcl_bv::python {
 using namespace detail;
@@ -28,7 +29,7 @@ void raise_value_error(const char* name, const std::string& what) {
 // before the first warning were lost.
 void warn(const std::string& text) {
   py::module_::import("warnings");
-  if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+  if (PyErr_WarnEx(PyExc_UserWarning, message_line(text).c_str(), 1) != 0) throw py::error_already_set();
 }
 
 void raise_type_error(const char* name, const std::string& expected, py::handle value) {

@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <stdexcept>
+
 #include "bind.h"
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/messages/serialize.h"
 #include "pcl_bv/nodes/frame_source.h"
 #include "pcl_bv/nodes/stream_runner.h"
@@ -16,13 +19,13 @@ void translate(std::exception_ptr error) {  // NOLINT(performance-unnecessary-va
   try {
     if (error) std::rethrow_exception(error);
   } catch (const IoError& e) {
-    PyErr_SetString(PyExc_OSError, e.what());
+    PyErr_SetString(PyExc_OSError, message_line(e.what()).c_str());
   } catch (const FrameError& e) {
-    PyErr_SetString(PyExc_OSError, e.what());
+    PyErr_SetString(PyExc_OSError, message_line(e.what()).c_str());
   } catch (const MessageError& e) {
-    PyErr_SetString(PyExc_OSError, e.what());
-  } catch (const ConfigError& e) {
-    PyErr_SetString(PyExc_ValueError, e.what());
+    PyErr_SetString(PyExc_OSError, message_line(e.what()).c_str());
+  } catch (const std::invalid_argument& e) {
+    PyErr_SetString(PyExc_ValueError, message_line(e.what()).c_str());
   }
 }
 

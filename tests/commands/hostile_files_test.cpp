@@ -66,6 +66,29 @@ TEST_F(HostileFiles, ADamagedPartialFileIsOneLine) {
   EXPECT_FALSE(std::filesystem::exists(at("both")));
 }
 
+TEST_F(HostileFiles, AMessageIsShortWhateverAFileNames) {
+  const std::string name(100'000, 'n');
+  const std::string tiles =
+      R"({"asset":{"version":"1.1"},"root":{"boundingVolume":{"box":[0,0,0,1,0,0,0,1,0,0,0,1]},"content":{"uri":")";
+  const Result update = run({"--update", file("t.json", tiles + name + ".b3dm\"}}}")});
+  expect_refused(update, 1, "file name too long");
+  const Result volume = drop_inside(R"({"shape":")" + name + R"(","center":[0,0,0]})");
+  expect_refused(volume, 1, "is no shape");
+  Surroundings stream;
+  stream.program = "bv_stream";
+  const std::string robot =
+      "<robot><link name='" + name + "'><collision><geometry/></collision></link></robot>";
+  const std::string config =
+      file("c.yaml", "rig: {urdf: '" + file("r.urdf", robot) + "', frame: '" + name + "', self_filter: 0.1}");
+  const Result link = run({"--config", config, "--source", "synth:street-sequence:1"}, stream);
+  EXPECT_NE(link.status, 0);
+  for (const Result& result : {update, volume, link})
+    for (std::size_t at = 0, end; at < result.err.size(); at = end + 1) {
+      end = std::min(result.err.find('\n', at), result.err.size());
+      EXPECT_LE(end - at, 500U) << result.err.substr(at, 600);
+    }
+}
+
 TEST_F(HostileFiles, SinksThatAreOpenedInVainLeaveNothing) {
   const std::string bad = file("plain", "text") + "/under/a.file";
   const std::vector<std::string> bad_sinks{

@@ -58,7 +58,7 @@ void read_request(const std::string& text) {
   if (const auto* set = std::get_if<live::SetParameters>(&request))
     check_message(settings->change(set->object), text);
   if (const auto* unknown = std::get_if<live::InvalidRequest>(&request))
-    if (live::status(live::Level::error, unknown->why).size() > 4 * live::kMaxStatusLength) std::abort();
+    if (live::status(live::Level::error, unknown->why).size() > 4 * kMaxMessageBytes) std::abort();
 }
 
 void read_file_of_volumes(const std::string& text) {

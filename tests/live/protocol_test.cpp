@@ -90,7 +90,7 @@ TEST(LiveProtocol, ARequestNamesSoManyThingsAndNoMore) {
 
 TEST(LiveProtocol, AnAnswerIsShortWhateverWasAsked) {
   const std::string answer = status(Level::error, std::string(100'000, 'x'));
-  EXPECT_LT(answer.size(), kMaxStatusLength + 100);
+  EXPECT_LT(answer.size(), detail::kMaxMessageBytes + 100);
   const Request unknown = parse_request(R"({"op":")" + std::string(10'000, 'x') + "\"}");
   EXPECT_LT(std::get<InvalidRequest>(unknown).why.size(), 100U);
 }

@@ -334,7 +334,7 @@ TEST_F(LiveServer, NoRequestEndsItOrKeepsOthersWaiting) {
     EXPECT_TRUE(others_go_on());
   }
   bad.say({{"op", "setParameters"}, {"parameters", {{{"name", std::string(60'000, 'x')}, {"value", 1}}}}});
-  EXPECT_LE(bad.await("status")["message"].get<std::string>().size(), live::kMaxStatusLength);
+  EXPECT_LE(bad.await("status")["message"].get<std::string>().size(), detail::kMaxMessageBytes);
   EXPECT_TRUE(others_go_on());
 }
 

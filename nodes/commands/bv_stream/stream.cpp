@@ -22,6 +22,7 @@
 #include "commands/shared/values.h"
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/nodes/frame_sink.h"
@@ -106,7 +107,7 @@ class Reader {
         if (paced() && error.frame.header.stamp_ns >= 0) due(error.frame);  // advances the schedule
         runner_.report_unreadable(error.frame, error.reason);
       } catch (const std::exception& error) {
-        runner_.report_unreadable({}, std::string("the source failed: ") + error.what());
+        runner_.report_unreadable({}, std::string("the source failed: ") + reason_of(error));
         more = false;
         failed = true;
       }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "object_texts.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/report/ground_file.h"
 #include "pipeline/ground.h"
 #include "share_points.h"
@@ -39,7 +40,7 @@ void with_file(const std::string& file, const Work& work) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    throw IoError(file + ": " + error.what());
+    throw IoError(file + ": " + reason_of(error));
   }
 }
 

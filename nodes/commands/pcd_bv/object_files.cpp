@@ -13,6 +13,7 @@
 #include "copy_points.h"
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/points/point_source.h"
 
@@ -45,7 +46,7 @@ void write_object(const std::filesystem::path& folder, std::size_t id, const Poi
   } catch (const std::bad_alloc&) {
     throw IoError(path.string() + ": not enough memory");
   } catch (const std::exception& error) {
-    throw IoError(path.string() + ": " + error.what());
+    throw IoError(path.string() + ": " + reason_of(error));
   }
 }
 
@@ -69,7 +70,7 @@ Status write_objects(const std::filesystem::path& folder, std::size_t count, con
     });
     return Status::done;
   } catch (const std::exception& error) {
-    report_problem(error.what());
+    report_problem(reason_of(error));
     return Status::failed;
   }
 }

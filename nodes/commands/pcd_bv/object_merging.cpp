@@ -17,6 +17,7 @@
 #include "object_shares.h"
 #include "object_texts.h"
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "share_inputs.h"
 #include "stopwatch.h"
 
@@ -47,7 +48,7 @@ bool open_files(const std::vector<std::string>& files, const Options& options, O
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
-      report_problem(name + ": " + error.what());
+      report_problem(name + ": " + reason_of(error));
       good = false;
     }
   }
@@ -180,7 +181,7 @@ class ClassMerger {
   std::vector<const std::string*> names_;
   FileLife life_;
   std::mutex mutex_;
-  std::set<std::pair<std::size_t, std::string>> problems_;     // of shares, each once
+  std::set<std::pair<std::size_t, std::string>> problems_;  // of shares, each once
   // Shares and numbers of components. Threads read those of earlier attempts, and add new ones.
   std::set<std::pair<std::size_t, std::uint32_t>> bad_texts_, new_bad_texts_;
 };

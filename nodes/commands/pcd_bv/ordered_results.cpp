@@ -12,6 +12,7 @@
 
 #include "commands/shared/messages.h"
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/io/untrusted_text.h"
 
 namespace pcl_bv::detail {
 
@@ -34,7 +35,7 @@ Result result_of(const Outcome& outcome, const RenderOptions& options, const Wri
   } catch (const std::bad_alloc&) {
     failed.error = "not enough memory for its report";
   } catch (const std::exception& error) {
-    failed.error = error.what();
+    failed.error = reason_of(error);
   }
   failed.file = outcome.report.file;
   report_problem(failed.file + ": " + *failed.error);

@@ -25,6 +25,7 @@
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/report/meshes.h"
 #include "pcl_bv/report/picture.h"
@@ -60,10 +61,8 @@ Status write_file(const std::filesystem::path& path, const Write& write) {
     create_parent_folders(path);
     write();
     return Status::done;
-  } catch (const std::bad_alloc&) {
-    report_problem(path.string() + ": not enough memory");
   } catch (const std::exception& error) {
-    report_problem(path.string() + ": " + error.what());
+    report_problem(path.string() + ": " + reason_of(error));
   }
   return Status::failed;
 }
@@ -327,7 +326,7 @@ Outcome detail::process(const Job& job, const Options& options, FramePipeline& p
   } catch (const std::bad_alloc&) {
     outcome.report.error = "not enough memory";
   } catch (const std::exception& error) {
-    outcome.report.error = error.what();
+    outcome.report.error = reason_of(error);
   }
   report_problem(job.input + ": " + *outcome.report.error);
   outcome.status = Status::failed;

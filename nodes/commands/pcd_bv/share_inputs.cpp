@@ -12,6 +12,7 @@
 #include "commands/shared/output_claims.h"
 #include "commands/shared/values.h"
 #include "copy_points.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/nodes/frame_result.h"
 #include "pcl_bv/parallel/execution.h"
 #include "pcl_bv/segmentation/cluster_share.h"
@@ -228,11 +229,8 @@ Status write_input_labels(const std::vector<LabelledInput>& inputs, const OpenSh
   for (const LabelledInput& input : inputs) {
     try {
       write_labels_of(input, open, origin, scalar, list);
-    } catch (const std::bad_alloc&) {
-      report_problem(input.job.input + ": not enough memory");
-      status = Status::failed;
     } catch (const std::exception& error) {
-      report_problem(input.job.input + ": " + error.what());
+      report_problem(input.job.input + ": " + reason_of(error));
       status = Status::failed;
     }
   }

@@ -10,6 +10,7 @@
 #include "commands/shared/messages.h"
 #include "ground_parts.h"
 #include "object_shares.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "tile_progress.h"
 
 namespace pcl_bv {
@@ -35,7 +36,7 @@ std::optional<MergedClouds> detail::merge_files(const std::vector<std::string>& 
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
-      report_problem(name + ": " + error.what());
+      report_problem(name + ": " + reason_of(error));
       failed = true;
     }
   }
@@ -144,7 +145,7 @@ Status make_object_file(const Job& job, const Options& options) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    report_problem(options.partial->string() + ": " + error.what());
+    report_problem(options.partial->string() + ": " + reason_of(error));
   }
   return Status::failed;
 }

@@ -11,6 +11,7 @@
 #include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "tiles.h"
 
 namespace pcl_bv::detail {
@@ -23,7 +24,7 @@ RawCloud load_tile(const Tiles& tiles, std::size_t tile, std::size_t points) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    throw TileError(tile, error.what());
+    throw TileError(tile, reason_of(error));
   }
   throw TileError(tile, kChangedWhileRead);
 }

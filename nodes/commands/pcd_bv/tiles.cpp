@@ -13,6 +13,7 @@
 #include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/io/raw_cloud_edit.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/io/untrusted_text.h"
 
 namespace pcl_bv::detail {
 namespace {
@@ -32,7 +33,7 @@ auto of_tile(std::size_t tile, const Work& work) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    throw TileError(tile, error.what());
+    throw TileError(tile, reason_of(error));
   }
 }
 
@@ -67,7 +68,7 @@ TileHeader describe_tile(const Job& job) {
   } catch (const std::bad_alloc&) {
     header.error = "not enough memory";
   } catch (const std::exception& error) {
-    header.error = error.what();
+    header.error = reason_of(error);
   }
   return header;
 }

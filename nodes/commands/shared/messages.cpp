@@ -49,7 +49,7 @@ void name_command(std::string_view name) {
 }
 
 void print_message(std::string_view text) {
-  const std::string line = printable((command + ": ").append(text));
+  const std::string line = message_line((command + ": ").append(text));
   const std::lock_guard lock(mutex);
   write_error(erasure() + line + '\n' + status_line);
 }
@@ -61,7 +61,7 @@ void report_problem(std::string_view problem) {
     print_message(problem);
   } else {
     const std::lock_guard lock(mutex);
-    problems.emplace_back(problem);
+    problems.emplace_back(message_line(problem));
   }
 }
 

@@ -15,6 +15,7 @@ void name_command(std::string_view command);
 
 /// Prints one line, "<command>: text", on standard error. Lines of several threads do not mix. Control
 /// characters become question marks, so that a file name can neither break the line nor control a terminal.
+/// Long names and lines lose their middle (message_line()).
 void print_message(std::string_view text);
 
 /// Prints a problem as print_message() does. While the calling thread has a DeferredMessages object, stores

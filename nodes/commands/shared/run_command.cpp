@@ -8,7 +8,7 @@
 #include <string>
 
 #include "messages.h"
-#include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "standard_streams.h"
 #include "values.h"
 
@@ -24,8 +24,8 @@ int run_command(std::string_view command, const std::function<int()>& work) {
     return 2;
   } catch (const IoError& error) {
     report_problem(error.what());
-  } catch (const std::bad_alloc&) {
-    report_problem("not enough memory");
+  } catch (const std::bad_alloc& error) {
+    report_problem(reason_of(error));
   } catch (const std::exception& error) {
     report_problem(std::string("internal error: ") + error.what());
   }

@@ -130,10 +130,8 @@ std::string advertisement(const std::vector<MessageTopic>& topics, std::size_t f
 }
 
 std::string status(Level level, const std::string& message) {
-  const bool whole = message.size() <= kMaxStatusLength;
-  return text_of(Json{{"op", "status"},
-                      {"level", static_cast<int>(level)},
-                      {"message", whole ? message : message.substr(0, kMaxStatusLength - 3) + "..."}});
+  return text_of(
+      Json{{"op", "status"}, {"level", static_cast<int>(level)}, {"message", message_line(message)}});
 }
 
 std::string parameter_values(const std::string& settings, const std::vector<std::string>& names,

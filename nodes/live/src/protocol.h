@@ -70,9 +70,8 @@ using Request =
 
 /// Limits on the parts of a request that an answer repeats. With these limits, no answer is much longer than
 /// the values of all settings.
-inline constexpr std::size_t kMaxNames = 100;         ///< Of settings, channels or subscriptions.
-inline constexpr std::size_t kMaxIdLength = 200;      ///< Bytes of a request's id.
-inline constexpr std::size_t kMaxStatusLength = 500;  ///< Bytes of a status message.
+inline constexpr std::size_t kMaxNames = 100;     ///< Of settings, channels or subscriptions.
+inline constexpr std::size_t kMaxIdLength = 200;  ///< Bytes of a request's id.
 
 /// Parses a request. Returns InvalidRequest for an invalid request and for a request over the limits.
 Request parse_request(const std::string& text);

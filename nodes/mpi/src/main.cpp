@@ -16,6 +16,7 @@
 #include "failures.h"
 #include "merged_cloud.h"
 #include "merged_objects.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "ranks.h"
 
 namespace pcl_bv::detail {
@@ -127,7 +128,7 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
       reason = "not enough memory";
     } catch (const std::exception& error) {
-      reason = error.what();
+      reason = reason_of(error);
     }
     print_message("rank " + std::to_string(ranks.rank()) + ": " + reason);
     Ranks::abort();  // the other ranks may be waiting for this rank

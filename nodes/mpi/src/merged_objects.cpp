@@ -20,6 +20,7 @@
 #include "commands/shared/messages.h"
 #include "costs.h"
 #include "failures.h"
+#include "pcl_bv/io/untrusted_text.h"
 
 namespace pcl_bv {
 using namespace detail;
@@ -149,7 +150,7 @@ std::optional<TileFailure> run_on_all(Ranks& ranks, RankCosts& costs, const Work
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
-      problem = error.what();
+      problem = reason_of(error);
     }
   });
   const double waiting = end();
@@ -243,7 +244,7 @@ Status detail::find_merged_objects(Ranks& ranks, const Job& job, const Options& 
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
-      problem = error.what();
+      problem = reason_of(error);
     }
     costs.cpu_seconds += processor_seconds() - begin;
   });

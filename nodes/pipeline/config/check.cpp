@@ -103,7 +103,7 @@ std::vector<std::string> lines(const std::vector<ConfigProblem>& problems) {
   std::vector<std::string> texts;
   texts.reserve(problems.size());
   for (const ConfigProblem& problem : problems)
-    texts.push_back(printable(problem.key + ": " + problem.what));
+    texts.push_back(message_line(problem.key + ": " + problem.what));
   return texts;
 }
 

@@ -14,6 +14,7 @@
 
 #include "check.h"
 #include "pcl_bv/io/read_json.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/nodes/stream_runner.h"
 #include "pcl_bv/points/isa.h"
@@ -154,13 +155,12 @@ class PipelineSettings final : public RemoteParameters {
     const std::lock_guard lock(mutex_);
     PipelineConfig config = pipeline_.config();
     for (const auto& [key, value] : wanted.items()) {
-      if (std::string problem = put(key, value, config); !problem.empty())
-        return printable(std::move(problem));
+      if (std::string problem = put(key, value, config); !problem.empty()) return message_line(problem);
     }
     try {
       pipeline_.set_config(std::move(config));
     } catch (const std::exception& error) {
-      return error.what();
+      return reason_of(error);
     }
     return {};
   }
@@ -183,7 +183,7 @@ class PipelineSettings final : public RemoteParameters {
         set(setting, text_of(value), field);
         problem.clear();
       } catch (const std::exception& error) {
-        problem = key + ": " + error.what();
+        problem = key + ": " + reason_of(error);
       }
     });
     return problem;

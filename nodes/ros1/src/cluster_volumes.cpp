@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "parameters.h"
+#include "pcl_bv/io/untrusted_text.h"
 
 namespace pcl_bv {
 using namespace detail;
@@ -24,7 +25,7 @@ ClusterVolumes::ClusterVolumes(const ros::NodeHandle& topics, const ros::NodeHan
   if (std::optional<RegionConfig> body = robot_body(config.rig, warnings))
     config.pipeline.filter.regions.push_back(*std::move(body));
   for (const std::string& line : warnings)
-    ROS_WARN_STREAM(name_ << ": " << line);
+    ROS_WARN_STREAM(message_line(name_ + ": " + line));
   if (const auto& field = config.pipeline.cluster.class_field) class_field_ = field->name;
   pipeline_ = FramePipeline(config.pipeline);
   runner_ = std::make_unique<StreamRunner>(callbacks(), config.runner);
@@ -54,7 +55,7 @@ ClusterVolumes::~ClusterVolumes() {
 }
 
 void ClusterVolumes::open_rig(const StreamConfig& config) {
-  const auto warn = [this](const std::string& line) { ROS_WARN_STREAM(name_ << ": " << line); };
+  const auto warn = [this](const std::string& line) { ROS_WARN_STREAM(message_line(name_ + ": " + line)); };
   try {
     rig_ = std::make_unique<RigReader>(topics_, config, *runner_, warn);
   } catch (const std::invalid_argument& error) {
@@ -69,7 +70,8 @@ StreamRunner::Callbacks ClusterVolumes::callbacks() {
   calls.on_lost = [this](const Frame& frame, Loss loss, const std::string& reason) {
     health_.count_lost();
     const std::string sensor = frame.file.empty() ? "" : frame.file + ": ";
-    if (loss == Loss::error) ROS_WARN_STREAM_THROTTLE(10, name_ << ": cloud lost: " << sensor << reason);
+    if (loss == Loss::error)
+      ROS_WARN_STREAM_THROTTLE(10, message_line(name_ + ": cloud lost: " + sensor + reason));
   };
   calls.on_silence = [this](double seconds) {
     if (subscribed_) ROS_WARN_STREAM(name_ << ": no cloud for " << seconds << " s");
@@ -101,7 +103,7 @@ void ClusterVolumes::receive(const sensor_msgs::PointCloud2ConstPtr& cloud) {
   try {
     read_cloud(cloud, class_field_, frame);
   } catch (const std::exception& error) {
-    runner_->report_unreadable(std::move(frame), error.what());
+    runner_->report_unreadable(std::move(frame), reason_of(error));
     return;
   }
   runner_->push(std::move(frame));
@@ -109,7 +111,7 @@ void ClusterVolumes::receive(const sensor_msgs::PointCloud2ConstPtr& cloud) {
 
 // Publishes shared pointers, so that nodelets in the same manager receive the messages without a copy.
 void ClusterVolumes::publish(const Frame& frame, const FrameResult& result) {
-  if (!frame.note.empty()) ROS_WARN_STREAM_THROTTLE(60, name_ << ": " << frame.note);
+  if (!frame.note.empty()) ROS_WARN_STREAM_THROTTLE(60, message_line(name_ + ": " + frame.note));
   if (labels_.getNumSubscribers() > 0) {
     const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>();
     fill_points(frame, result, *cloud);

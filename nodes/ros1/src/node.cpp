@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "cluster_volumes.h"
+#include "pcl_bv/io/untrusted_text.h"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "cluster_volumes");
@@ -15,10 +16,11 @@ int main(int argc, char** argv) {
     const pcl_bv::ClusterVolumes node(ros::NodeHandle(), ros::NodeHandle("~"));
     ros::spin();
   } catch (const pcl_bv::ConfigError& error) {
-    std::cerr << "cluster_volumes: " << error.what() << '\n';
+    std::cerr << "cluster_volumes: " << pcl_bv::detail::message_line(error.what()) << '\n';
     status = 2;
   } catch (const std::exception& error) {
-    std::cerr << "cluster_volumes: " << error.what() << '\n';
+    std::cerr << "cluster_volumes: " << pcl_bv::detail::message_line(pcl_bv::detail::reason_of(error))
+              << '\n';
     status = 1;
   }
   return status;

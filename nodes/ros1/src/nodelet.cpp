@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "cluster_volumes.h"
+#include "pcl_bv/io/untrusted_text.h"
 
 namespace pcl_bv {
 using namespace detail;
@@ -19,7 +20,7 @@ class ClusterVolumesNodelet : public nodelet::Nodelet {
     try {
       work_ = std::make_unique<ClusterVolumes>(getNodeHandle(), getPrivateNodeHandle());
     } catch (const std::exception& error) {
-      NODELET_FATAL_STREAM(error.what());
+      NODELET_FATAL_STREAM(detail::message_line(detail::reason_of(error)));
       throw;
     }
   }

@@ -96,7 +96,7 @@ NodeConfig config_of(const ros::NodeHandle& parameters) {
   try {
     if (const std::string preset = take("preset"); !preset.empty()) apply_preset(preset, config.pipeline);
   } catch (const std::invalid_argument& error) {
-    throw ConfigError(printable(name + ": preset: " + error.what()));
+    throw ConfigError(message_line(name + ": preset: " + error.what()));
   }
   if (const std::string file = take("config"); !file.empty())
     static_cast<StreamConfig&>(config) = read_stream_config(file, config);
@@ -108,7 +108,7 @@ NodeConfig config_of(const ros::NodeHandle& parameters) {
   try {
     if (tree["publish"]) config.publish = adapters_in(tree["publish"]);
   } catch (const std::invalid_argument& error) {
-    throw ConfigError(printable(name + ": publish: " + error.what()));
+    throw ConfigError(message_line(name + ": publish: " + error.what()));
   }
   tree.remove("publish");
   try {

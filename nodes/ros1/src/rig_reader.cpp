@@ -7,6 +7,7 @@
 #include <exception>
 #include <utility>
 
+#include "pcl_bv/io/untrusted_text.h"
 #include "stream/rig/open_live_rig.h"
 
 namespace pcl_bv {
@@ -56,7 +57,7 @@ void RigReader::read() {
     } catch (const FrameError& error) {
       runner_.report_unreadable(error.frame, error.reason);
     } catch (const std::exception& error) {
-      warn_(std::string("the clouds cannot be merged any more: ") + error.what());
+      warn_("the clouds cannot be merged any more: " + detail::reason_of(error));
       return;
     }
   }

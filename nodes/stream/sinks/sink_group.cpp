@@ -8,6 +8,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/nodes/frame_sink.h"
 
 namespace pcl_bv {
@@ -102,7 +103,7 @@ bool SinkGroup::attempt(Member& member, const Do& what) {
     report_failure(member, error.what());
     return false;
   } catch (const std::exception& error) {
-    report_failure(member, error.what());
+    report_failure(member, detail::reason_of(error));
   } catch (...) {
     report_failure(member, "an exception that is no std::exception");
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cloud_message.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/nodes/topics.h"
 #include "sources.h"
 
@@ -40,7 +41,7 @@ class MessageSource final : public FrameSource {
       read_cloud_message({message.data, message.size, message.owner, message.ros1, type}, class_field_,
                          frame);
     } catch (const std::exception& error) {
-      throw FrameError(std::move(frame), error.what());
+      throw FrameError(std::move(frame), reason_of(error));
     }
     if (!frame_id_.empty()) frame.header.frame_id = frame_id_;
     frame.pose = poses_.at(0, frame.header.stamp_ns);

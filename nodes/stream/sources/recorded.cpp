@@ -7,6 +7,7 @@
 
 #include "cloud_message.h"
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/nodes/topics.h"
 #include "pcl_bv/recording/packet_reader.h"
 #include "pcl_bv/recording/recording.h"
@@ -48,7 +49,7 @@ class Recorded final : public FrameSource {
     try {
       read(message, frame);
     } catch (const std::exception& error) {
-      throw FrameError(std::move(frame), error.what());
+      throw FrameError(std::move(frame), reason_of(error));
     }
     frame.pose = poses_.at(index, frame.header.stamp_ns);
     frame.decode_ms =

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "pcl_bv/io/untrusted_text.h"
 #include "sources.h"
 
 namespace pcl_bv::detail {
@@ -37,7 +38,7 @@ class Replay : public FrameSource {
       if (frame.header.stamp_ns < 0) throw std::runtime_error("no time in its name");
       load_(index, frame);
     } catch (const std::exception& error) {
-      throw FrameError(std::move(frame), error.what());
+      throw FrameError(std::move(frame), reason_of(error));
     }
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
     frame.decode_ms = took.count();
