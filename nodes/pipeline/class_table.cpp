@@ -33,6 +33,14 @@ ClassTable::ClassTable(const PipelineConfig& config)
   }
 }
 
+ClassTable ClassTable::with_origin(const Eigen::Vector3d& origin) const {
+  ClassTable moved = *this;
+  moved.default_options_.range_origin = origin;
+  for (ClassOptions& own : moved.class_options_)
+    own.clusters.range_origin = origin;
+  return moved;
+}
+
 const std::vector<const Method*>& ClassTable::methods_of(std::optional<std::int64_t> value) const {
   for (std::size_t i = 0; i < class_options_.size(); ++i) {
     if (class_options_[i].value == value) return class_methods_[i];

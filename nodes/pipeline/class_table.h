@@ -20,6 +20,9 @@ class ClassTable {
   ClassTable() = default;
   explicit ClassTable(const PipelineConfig& config);
 
+  /// Returns a table whose growing tolerances are measured from `origin`.
+  ClassTable with_origin(const Eigen::Vector3d& origin) const;
+
   /// Returns the options for classes that have no ClassConfig.
   const ClusterOptions& default_options() const { return default_options_; }
   /// Returns the options of each class that has a ClassConfig.
@@ -35,5 +38,5 @@ class ClassTable {
   std::vector<std::vector<const Method*>> class_methods_;  // in the order of `class_options_`
 };
 
-}  // namespace detail
+}  // namespace gnu::visibility("default")]]detail
 }  // namespace pcl_bv

@@ -46,6 +46,14 @@ PointFilter::PointFilter(const FilterConfig& config, UsableIsa isa)
       cropped_(mask_of(config.regions, true)),
       isa_(isa) {}
 
+PointFilter PointFilter::with_origin(const Eigen::Vector3d& origin) const {
+  PointFilter moved = *this;
+  moved.origin_ += origin;
+  moved.low_ += origin;
+  moved.high_ += origin;
+  return moved;
+}
+
 bool PointFilter::keeps_all() const {
   return min2_ == 0 && max2_ == std::numeric_limits<double>::infinity() && !has_own_box_ && !dropped_ &&
          !cropped_;
@@ -87,10 +95,13 @@ template <typename Take>
 void PointFilter::each_distance(const PointView& points, const std::vector<SensorPart>& sensors,
                                 const Take& take) const {
   const bool doubles = points.scalar == ScalarType::float64;
+  if (sensors.empty() && origin_.isZero(0)) {
+    return doubles ? each_distance<double, true>(points, 0, points.count, origin_, take)
+                   : each_distance<float, true>(points, 0, points.count, origin_, take);
+  }
   if (sensors.empty()) {
-    const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-    return doubles ? each_distance<double, true>(points, 0, points.count, origin, take)
-                   : each_distance<float, true>(points, 0, points.count, origin, take);
+    return doubles ? each_distance<double, false>(points, 0, points.count, origin_, take)
+                   : each_distance<float, false>(points, 0, points.count, origin_, take);
   }
   // A merged cloud has no index list, so `points` are those from points.first on.
   for (const SensorPart& sensor : sensors) {
@@ -195,9 +206,11 @@ PointView FilteredPoints::load(std::size_t first, std::size_t count, std::vector
       part.view(), first, [&](std::size_t i) { return scratch.verdicts[i] == Verdict::kept; }, buffer);
 }
 
-FilteredView filter_points(const PointView& points, const FilterConfig& config, const Execution& execution) {
+FilteredView filter_points(const PointView& points, const FilterConfig& config, const Execution& execution,
+                           const Eigen::Vector3d& origin) {
   if (points.indices != nullptr) throw std::invalid_argument("filter_points: the view has an index list");
-  const auto filter = std::make_shared<const PointFilter>(config, execution.isa);
+  const auto filter =
+      std::make_shared<const PointFilter>(PointFilter(config, execution.isa).with_origin(origin));
   if (filter->keeps_all()) return {points, {}, {}};
   const auto filtered = std::make_shared<const FilteredPoints>(points, nullptr, filter);
   FilteredView view{view_of(*filtered, points.count, points.scalar), filtered->count(execution.parallel),

@@ -45,6 +45,10 @@ class PointFilter {
   /// Reads the files of regions that have no volumes. Throws IoError if a file cannot be read.
   PointFilter(const FilterConfig& config, UsableIsa isa);
 
+  /// Returns a filter for a cloud whose origin was moved to `origin`: distances are measured from there, and
+  /// the box of the own vehicle is moved by it.
+  PointFilter with_origin(const Eigen::Vector3d& origin) const;
+
   /// Returns whether all finite points are kept.
   bool keeps_all() const;
 
@@ -77,6 +81,7 @@ class PointFilter {
   double min2_, max2_;
   bool has_own_box_;
   Eigen::Vector3d low_, high_;  // box of the own vehicle
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::optional<RegionMask> dropped_, cropped_;
   UsableIsa isa_;
 };

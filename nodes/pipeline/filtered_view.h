@@ -24,8 +24,10 @@ struct FilteredView {
 /// Returns a view of `points` that filters the points whenever they are loaded, as FramePipeline does. The
 /// input must outlive the view. Makes one pass over the points to count the dropped ones. If the filter keeps
 /// all finite points, makes no pass and returns `points` itself, possibly with points that are not finite.
-/// Throws std::invalid_argument if `points` has an index list, and IoError if a region file cannot be read.
-FilteredView filter_points(const PointView& points, const FilterConfig& config, const Execution& execution);
+/// `origin` is Frame::recorded_origin. Throws std::invalid_argument if `points` has an index list, and
+/// IoError if a region file cannot be read.
+FilteredView filter_points(const PointView& points, const FilterConfig& config, const Execution& execution,
+                           const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
-}  // namespace detail
+}  // namespace gnu::visibility("default")]]detail
 }  // namespace pcl_bv

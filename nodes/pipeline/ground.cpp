@@ -32,12 +32,15 @@ GroundSlopeOptions detail::slope_settings(const GroundConfig& config) {
 }
 
 void detail::split_ground(const PointView& points, const GroundConfig& config, const SensorPosition& sensor,
-                          const Execution& execution, GroundZones& zones, GroundSplit& split) {
+                          const Eigen::Vector3d& origin, const Execution& execution, GroundZones& zones,
+                          GroundSplit& split) {
   split.found = false;
   split.ground.clear();
   split.rest.clear();
   if (config.method == GroundMethod::plane) {
-    split_ground(points, plane_settings(config), split);
+    GroundPlaneOptions settings = plane_settings(config);
+    settings.sensor = origin;
+    split_ground(points, settings, split);
   } else if (config.method == GroundMethod::zones) {
     auto settings = settings_of<GroundZonesOptions>(config);
     settings.sensor = sensor.position;

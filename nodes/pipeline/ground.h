@@ -20,10 +20,11 @@ GroundPlaneOptions plane_settings(const GroundConfig& config);
 GroundSlopeOptions slope_settings(const GroundConfig& config);
 
 /// Splits the points by the configured method and replaces `split`. With GroundMethod::none, both lists of
-/// `split` are empty. Zones are centred at `sensor`. If `sensor` is estimated, the configured sensor height
-/// is ignored. Reuses the memory of `zones`.
+/// `split` are empty. Zones are centred at `sensor`. For a plane, the sensor height is that of `origin`. If
+/// `sensor` is estimated, the configured sensor height is ignored. Reuses the memory of `zones`.
 void split_ground(const PointView& points, const GroundConfig& config, const SensorPosition& sensor,
-                  const Execution& execution, GroundZones& zones, GroundSplit& split);
+                  const Eigen::Vector3d& origin, const Execution& execution, GroundZones& zones,
+                  GroundSplit& split);
 
-}  // namespace detail
+}  // namespace gnu::visibility("default")]]detail
 }  // namespace pcl_bv

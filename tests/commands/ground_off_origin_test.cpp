@@ -130,6 +130,54 @@ TEST_F(GroundOffOrigin, RangesAndGrowingTolerancesAreSaidToCountFromTheOrigin) {
   EXPECT_EQ(run({"--cluster", "0.5", "--volume", "aabb", cloud}).err, "");
 }
 
+// Whatever is subtracted from the coordinates, the sensor stays where it was, and with it what is measured
+// from it: ranges, growing tolerances, ground zones and the height above the ground.
+TEST_F(GroundOffOrigin, AnOriginLeavesTheSensorWhereItIs) {
+  const std::string cloud = aside("sensor.pcd", 0, 0, 0);
+  for (const std::vector<std::string>& settings :
+       {std::vector<std::string>{"--cluster", "0.3:0.02"},
+        {"--cluster", "0.3", "--range", "8:40"},
+        {"--preset", "road"},
+        {"--cluster", "0.4", "--ground", "zones", "--sensor-height", "1.73"},
+        {"--cluster", "0.4", "--ground", "plane", "--sensor-height", "1.73"}}) {
+    std::vector<std::string> arguments{"--min-size", "30", "--volume", "aabb", "--format", "jsonl", cloud};
+    arguments.insert(arguments.begin(), settings.begin(), settings.end());
+    const Result right = run(arguments);
+    ASSERT_EQ(right.status, 0) << right.err;
+    const Json objects = right.json();
+    ASSERT_GT(objects["clusters"].size(), 10U);
+    for (const char* origin : {"auto", "5,-3,1", "-100.5,200,0"}) {
+      std::vector<std::string> moved = arguments;
+      moved.insert(moved.begin(), {"--origin", origin});
+      const Result result = run(moved);
+      EXPECT_EQ(result.err, right.err) << settings[1] << ' ' << origin;
+      const Json found = result.json();
+      EXPECT_EQ(found["counts"], objects["counts"]) << settings[1] << ' ' << origin;
+      ASSERT_EQ(found["clusters"].size(), objects["clusters"].size()) << settings[1] << ' ' << origin;
+      for (std::size_t i = 0; i < objects["clusters"].size(); ++i) {
+        const Json& before = objects["clusters"][i]["volumes"][0];
+        const Json& after = found["clusters"][i]["volumes"][0];
+        for (std::size_t k = 0; k < 3; ++k)
+          EXPECT_NEAR(after["max"][k].get<double>() + found["origin"][k].get<double>(),
+                      before["max"][k].get<double>(), 1e-9);
+      }
+    }
+  }
+}
+
+TEST_F(GroundOffOrigin, AnOriginFarAwayIsSaidToBeTakenForTheSensor) {
+  const std::string cloud = aside("map.pcd", 500'000, 4'649'776, 120);
+  const Result result = run({"--origin", "auto", "--cluster", "0.5:0.01", "--volume", "aabb", cloud});
+  EXPECT_THAT(
+      result.err,
+      HasSubstr("the sensor is assumed at the new origin (--origin), more than 500 m from the recorded "
+                "one: this decides about --cluster PER_METRE"));
+  EXPECT_EQ(run({"--origin", "auto", "--cluster", "0.5", "--volume", "aabb", cloud}).err, "");
+  const Result sensor = objects(cloud, {"--origin", "auto", "--sensor", "0,0,0"});
+  EXPECT_EQ(sensor.status, 2);
+  EXPECT_THAT(sensor.err, HasSubstr("--origin auto: cannot be combined with --sensor"));
+}
+
 TEST_F(GroundOffOrigin, ASensorHeightThatFitsNoPlaneHasALine) {
   EXPECT_THAT(objects(aside("sensor.pcd", 0, 0, 0), {"--sensor-height", "4"}).err,
               HasSubstr("no plane lies --sensor-height 4 m below the sensor"));

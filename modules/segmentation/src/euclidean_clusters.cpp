@@ -127,7 +127,9 @@ struct EuclideanClusterer::Scratch {
     levels.start(scratch.valid.points);
     for (std::size_t i = 0;; ++i) {
       const RangeLevel level = range_level(options.tolerance, options.tolerance_per_metre, i);
-      if (!(level.tolerance <= double{std::numeric_limits<float>::max()}) || !levels.advance_to(level)) break;
+      if (!(level.tolerance <= double{std::numeric_limits<float>::max()}) ||
+          !levels.advance_to(level, options.range_origin))
+        break;
       link(levels.points(), box_of(levels.points().data(), levels.points().size()),
            double{static_cast<float>(level.tolerance)}, 1, policy);
       levels.unite(sets.roots(), scratch.cells.node);

@@ -24,8 +24,7 @@ void split_ground(const PointView& points, const GroundPlaneOptions& options, Gr
   const FloatEnvironment environment;
   check(options);
   check_indices(points);
-  const std::optional<Plane> plane =
-      find_ground_plane(points, Eigen::Vector3d::Zero(), options, split.scratch);
+  const std::optional<Plane> plane = find_ground_plane(points, options.sensor, options, split.scratch);
   write_split(plane, points.count, split, [&](const auto& put) {
     for (std::size_t i = 0; i < points.count; ++i) {
       const Coordinates p = load_point(points, i);

@@ -28,11 +28,12 @@ void RangeLevels<T>::start(const std::vector<Point<T>>& points) {
 }
 
 template <typename T>
-bool RangeLevels<T>::advance_to(const RangeLevel& level) {
+bool RangeLevels<T>::advance_to(const RangeLevel& level, const Eigen::Vector3d& origin) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Point<T> p = points_[i];
-    if (squared_norm<double>(p.x, p.y, p.z) < level.min_squared_range) continue;
+    if (squared_norm(p.x - origin.x(), p.y - origin.y(), p.z - origin.z()) < level.min_squared_range)
+      continue;
     points_[count] = p;
     position_[count++] = position_[i];
   }

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Clusters for ClusterOptions::tolerance_per_metre. The tolerance grows with the distance from the origin, by
-// a factor of 2^(1/4) from level to level.
+// Clusters for ClusterOptions::tolerance_per_metre. The tolerance grows with the distance from
+// ClusterOptions::range_origin, by a factor of 2^(1/4) from level to level.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -15,7 +16,7 @@
 namespace pcl_bv::detail {
 
 /// Level i has the tolerance ClusterOptions::tolerance * 2^(i/4). A point has at least this tolerance if its
-/// squared distance from the origin is at least min_squared_range.
+/// squared range is at least min_squared_range.
 struct RangeLevel {
   double tolerance, min_squared_range;
 };
@@ -32,8 +33,9 @@ class RangeLevels {
   /// Starts with all points, each in a separate set.
   void start(const std::vector<Point<T>>& points);
 
-  /// Removes the points that are not at the level. Returns false if no point remains.
-  bool advance_to(const RangeLevel& level);
+  /// Removes the points that are not at the level. Ranges are measured from `origin`. Returns false if no
+  /// point remains.
+  bool advance_to(const RangeLevel& level, const Eigen::Vector3d& origin);
 
   /// Returns the points at the current level.
   const std::vector<Point<T>>& points() const { return points_; }

@@ -35,7 +35,7 @@ using FlatPoints = std::vector<Vector3d>;
 void sample_from_above(const PointView& points, const UpFrame& frame, const Vector3d& assumed,
                        FlatPoints& flat) {
   draw_sample(points, 1, kSample, flat);
-  flat.erase(std::remove(flat.begin(), flat.end(), Vector3d(Vector3d::Zero())), flat.end());
+  std::erase_if(flat, [&](const Vector3d& p) { return p.isZero(0) || p == assumed; });
   for (Vector3d& p : flat)
     p = Vector3d(dot3(p - assumed, frame.u), dot3(p - assumed, frame.v), 0);
 }

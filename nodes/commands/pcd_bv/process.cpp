@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <iterator>
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -31,6 +31,7 @@
 #include "pcl_bv/report/picture.h"
 #include "pcl_bv/segmentation/up.h"
 #include "shares.h"
+#include "shifted_points.h"
 #include "skip_predicate.h"
 #include "stopwatch.h"
 #include "tile_progress.h"
@@ -110,13 +111,37 @@ Status write_files(const Job& job, const Options& options, const Frame& frame, c
   return status;
 }
 
+/// Returns a warning if a setting depends on the position of the sensor, but the points were moved so far
+/// that nothing is known about it (recorded_origin()).
+std::string origin_warning(const Frame& frame, const std::optional<Eigen::Vector3d>& origin,
+                           const Options& options) {
+  if (!origin || origin->isZero(0) || !frame.recorded_origin.isZero(0)) return {};
+  const PipelineConfig& config = options.pipeline;
+  std::string settings;
+  const auto add = [&](bool used, const char* name) {
+    if (used) settings.append(settings.empty() ? "" : ", ").append(name);
+  };
+  add(config.filter.range_min > 0 || config.filter.range_max < std::numeric_limits<double>::infinity(),
+      "--range");
+  add(config.cluster.tolerance_per_metre > 0, "--cluster PER_METRE");
+  add(config.ground.method == GroundMethod::zones && !config.ground.sensor && !frame.sensor,
+      "--ground zones");
+  if (settings.empty()) return {};
+  return "the sensor is assumed at the new origin (--origin), more than 500 m from the recorded one: this "
+         "decides about " +
+         settings;
+}
+
 /// Returns the warnings that a user should read before trusting the results.
 std::vector<std::string> result_warnings(const Frame& frame, const FrameResult& result,
+                                         const std::optional<Eigen::Vector3d>& origin,
                                          const Options& options) {
   std::vector<std::string> warnings;
   const std::string range = range_warning(result, options.range_from);
   if (!range.empty()) warnings.push_back(range);
-  std::ranges::move(FrameWarnings(option_names(false)).take(frame, result), std::back_inserter(warnings));
+  const std::string moved = origin_warning(frame, origin, options);
+  if (!moved.empty()) warnings.push_back(moved);
+  warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
   Aabb box;
   for (std::size_t id = 0; id < result.clusters.size(); ++id)
     box.merge(aabb(result.volume(id, 0)));
@@ -139,6 +164,7 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   frame.points = loaded.xyz();
   frame.sensor = sensor_of(loaded.cloud());
   if (frame.sensor && loaded.origin()) *frame.sensor -= *loaded.origin();
+  frame.recorded_origin = recorded_origin(loaded.origin());
   if (const RawCloud& cloud = loaded.cloud(); !cloud.data.empty())
     frame.intensity = intensity_of(cloud.fields, cloud.data.data(), cloud.point_step);
   if (const auto& field = options.pipeline.cluster.class_field) {
@@ -148,13 +174,14 @@ Status process(const Job& job, const Options& options, FramePipeline& pipeline, 
   }
   const auto found = std::make_shared<FrameResult>();
   FrameResult& result = *found;
+  pipeline.set_warnings(FrameWarnings(option_names(false)));  // each cloud has warnings of its own
   pipeline.process(frame, result);
   outcome.result = found;
   if (job.tiles) report.parts = job.tiles->included_count();
   report.points = result.points;
   report.counts = result.counts;
   report.origin = loaded.origin();
-  for (const std::string& warning : result_warnings(frame, result, options))
+  for (const std::string& warning : result_warnings(frame, result, report.origin, options))
     report_problem(job.input + ": " + warning);
   if (options.info) {
     const RawCloud& cloud = loaded.cloud();

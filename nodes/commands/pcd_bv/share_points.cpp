@@ -52,7 +52,7 @@ SharePoints::SharePoints(const Tiles& tiles, const PointRange& range,
     points = view_of(*shifted_, points.count, ScalarType::float64);
   }
   points = points.slice(range.first, range.second - range.first);
-  filtered_ = filter_points(points, options.pipeline.filter, execution_of(options));
+  filtered_ = filter_points(points, options.pipeline.filter, execution_of(options), recorded_origin(origin));
 }
 
 PartialFile describe_cloud(const Tiles& tiles, const std::optional<Eigen::Vector3d>& origin,

@@ -28,6 +28,12 @@ Eigen::Vector3d rounded_centre(const PointView& points, const Execution& executi
   return box.empty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(box.center().array().round());
 }
 
+Eigen::Vector3d recorded_origin(const std::optional<Eigen::Vector3d>& origin) {
+  constexpr double farthest = 500;  // metres
+  const bool near = origin && origin->array().abs().maxCoeff() <= farthest && origin->norm() <= farthest;
+  return near ? Eigen::Vector3d(-*origin) : Eigen::Vector3d::Zero();
+}
+
 std::vector<std::byte> packed_copy(const PointView& points) {
   const std::size_t step = 3 * size_of(points.scalar);
   std::vector<std::byte> all(step * points.count);

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "pcl_bv/parallel/execution.h"
@@ -28,6 +29,12 @@ class ShiftedPoints final : public PointSource {
 /// Returns the centre of the points' axis-aligned box, rounded to whole numbers. Without a valid point,
 /// returns 0.
 Eigen::Vector3d rounded_centre(const PointView& points, const Execution& execution);
+
+/// Returns where the origin of the coordinates is after `origin` was subtracted, for Frame::recorded_origin.
+/// The sensor is assumed there. But no sensor sees farther than 500 m: if `origin` is farther away, as with
+/// the coordinates of a map, the new origin is as good, and the function returns 0. The result does not
+/// depend on the points, so that all shares of a cloud have the same.
+Eigen::Vector3d recorded_origin(const std::optional<Eigen::Vector3d>& origin);
 
 /// Returns a copy of all points of a view without gaps, in the scalar type of the view.
 std::vector<std::byte> packed_copy(const PointView& points);

@@ -21,6 +21,7 @@
 #include "pipeline/filtered_view.h"
 #include "pipeline/ground_view.h"
 #include "process.h"
+#include "shifted_points.h"
 #include "stopwatch.h"
 #include "tiled_labels.h"
 #include "tiles.h"
@@ -35,9 +36,10 @@ struct RemainingPoints {
   PointView points;
 };
 
-RemainingPoints remaining_points(const PointView& cloud, const PipelineConfig& config) {
+RemainingPoints remaining_points(const PointView& cloud, const std::optional<Eigen::Vector3d>& origin,
+                                 const PipelineConfig& config) {
   RemainingPoints remaining;
-  remaining.filtered = filter_points(cloud, config.filter, config.execution());
+  remaining.filtered = filter_points(cloud, config.filter, config.execution(), recorded_origin(origin));
   remaining.points = remaining.filtered.points;
   if (config.ground.method != GroundMethod::slope) return remaining;
   remaining.ground = remove_slope_ground(remaining.points, config.ground, config.execution());
@@ -132,7 +134,7 @@ Status add_objects_of(const PointView& cloud, const Job& job, const Options& opt
   const PipelineConfig& config = options.pipeline;
   report.points = cloud.count;
   report.counts = Counts();
-  const RemainingPoints remaining = remaining_points(cloud, config);
+  const RemainingPoints remaining = remaining_points(cloud, report.origin, config);
   TiledObjects objects(options, cloud.scalar, report);
   if (const auto& field = config.cluster.class_field) {
     objects.add_classes({remaining.points, *job.tiles, field->name}, remaining);

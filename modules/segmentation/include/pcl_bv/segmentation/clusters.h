@@ -4,6 +4,7 @@
 // Euclidean clusters of points, without PCL. The partition is that of pcl::EuclideanClusterExtraction.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -61,8 +62,8 @@ struct ClusterOptions {
   /// Number of points in the core condition of DBSCAN, >= 1. A point is a core point if at least this number
   /// of points, itself included, are nearer than the tolerance. With 1 every point is a core point.
   std::size_t min_points = 1;
-  /// Growth of the tolerance for each unit of distance from the origin, for sensors whose points are sparser
-  /// farther out. Finite and >= 0; must be 0 if min_points is above 1.
+  /// Growth of the tolerance for each unit of distance from `range_origin`, for sensors whose points are
+  /// sparser farther out. Finite and >= 0; must be 0 if min_points is above 1.
   ///
   /// A point at the distance d has the tolerance tolerance * 2^(i/4). Here i is the largest integer for which
   /// this value is at most tolerance + tolerance_per_metre * d. Two points are linked if their distance is
@@ -70,6 +71,8 @@ struct ClusterOptions {
   float tolerance_per_metre = 0;
   /// Treatment of clusters with more than max_size points.
   Oversized oversized = Oversized::drop;
+  /// Position from which tolerance_per_metre measures distances.
+  Eigen::Vector3d range_origin = Eigen::Vector3d::Zero();
 };
 
 /// The clusters of a cloud. The largest cluster is first; clusters of equal size are ordered by their
@@ -138,4 +141,4 @@ class EuclideanClusterer {
 /// saves allocations with an EuclideanClusterer of its own.
 Clusters cluster(const PointView& points, const ClusterOptions& options, const Execution& execution = {});
 
-}  // namespace pcl_bv
+}  // namespace gnu::visibility("default")]]pcl_bv

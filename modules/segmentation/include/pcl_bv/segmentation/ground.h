@@ -28,11 +28,12 @@ struct GroundPlaneOptions {
   /// Points at most this far above the plane are ground; metres, > 0.
   double distance = 0.2;
   double max_slope_degrees = 15;  ///< Largest angle between the plane's normal and up, 0 to 89.
-  /// Height of the cloud's origin above the ground, along up; metres, >= 0. If set, the plane must be this
-  /// far below the origin, to within ground_height_tolerance.
+  /// Height of `sensor` above the ground, along up; metres, >= 0. If set, the plane must be this far below
+  /// the sensor, to within ground_height_tolerance.
   std::optional<double> sensor_height;
   std::uint32_t seed = 1;      ///< Seed of the random search. Other seeds may move the plane by millimetres.
   unsigned iterations = 1000;  ///< Number of planes tried, 1 to 1000000.
+  Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< Position of the sensor; only for sensor_height.
 };
 
 /// Largest accepted error of the option sensor_height, metres. The value is large enough for pitching
@@ -194,10 +195,10 @@ struct GroundSlopeOptions {
 /// A grid of square cells is laid perpendicular to `up`. The steps are:
 /// - Each cell stores the height of its lowest point.
 /// - Low outliers, e.g. reflections, are found. Cells within 3 cells of each other are linked if their
-///   heights differ by at most distance + max_slope * cell_size, where max_slope is the tangent of max_slope_degrees.
-///   Linked cells are a patch. A cell is above another one if its height exceeds that of the other by more
-///   than distance + max_slope * (distance of both centres). A cell of a patch of less than 20 cells is a low
-///   outlier if a cell of a larger patch within 10 cells is above it.
+///   heights differ by at most distance + max_slope * cell_size, where max_slope is the tangent of
+///   max_slope_degrees. Linked cells are a patch. A cell is above another one if its height exceeds that of
+///   the other by more than distance + max_slope * (distance of both centres). A cell of a patch of less than
+///   20 cells is a low outlier if a cell of a larger patch within 10 cells is above it.
 /// - The surface in the centre of a cell c is the minimum of low(c') + max_slope * |c - c'| over all cells c'
 ///   that are no low outliers. This is the lower envelope of cones.
 /// - Within a cell the surface is a plane. Along each axis of the grid, its slope is that to the next cell or
@@ -229,11 +230,11 @@ GroundSplit split_ground_by_slope(const PointView& points, const GroundSlopeOpti
 /// Checks whether a sensor at the position `assumed` may have recorded the cloud. If not, estimates the
 /// position of the sensor.
 ///
-/// The check uses a sample of at most 1024 valid points, without the points at (0, 0, 0), which are rays
-/// without a return. Distances are horizontal, i.e. perpendicular to `up`, in metres. Most points of a LiDAR
-/// are near the sensor. In recorded sweeps at least 72 % of the points are within 12.5 m of the sensor. At
-/// most 3 % are within 12.5 m of a position 30 m away from the sensor. So the points are treated as lying
-/// around `assumed` if one of these holds:
+/// The check uses a sample of at most 1024 valid points, without the points at (0, 0, 0) and at `assumed`,
+/// which are rays without a return. Distances are horizontal, i.e. perpendicular to `up`, in metres. Most
+/// points of a LiDAR are near the sensor. In recorded sweeps at least 72 % of the points are within 12.5 m of
+/// the sensor. At most 3 % are within 12.5 m of a position 30 m away from the sensor. So the points are
+/// treated as lying around `assumed` if one of these holds:
 /// - At least 5 % of the points are within 12.5 m of `assumed`.
 /// - At least 5 % are within 25 m of `assumed`, and no other position has half of the points within 12.5 m.
 ///   This covers a sensor that is high up or looks far ahead.
@@ -269,4 +270,4 @@ struct OtherUp {
 std::optional<OtherUp> find_other_up(const PointView& points, const GroundPlaneOptions& options,
                                      const Eigen::Vector3d& sensor, double found);
 
-}  // namespace pcl_bv
+}  // namespace gnu::visibility("default")]]pcl_bv
