@@ -21,14 +21,14 @@ namespace {
 using testing::HasSubstr;
 
 // Two cubes of 1 m with 1331 points each, 6 m apart, of which one moves by 0.1 m a frame; above a ground.
-std::vector<float> cubes(std::uint64_t frame) {
+std::vector<float> cubes(std::uint64_t frame, bool left) {
   std::vector<float> xyz;
   for (int i = 0; i < 2 * 1331; ++i) {
     const int k = i % 1331;
     const float x = 0.1F * static_cast<float>(k % 11), y = 0.1F * static_cast<float>(k / 11 % 11),
                 z = 0.1F * static_cast<float>(k / 121);
     const float moved = i < 1331 ? 0 : 0.1F * static_cast<float>(frame % 40);
-    xyz.insert(xyz.end(), {x + moved, i < 1331 ? y - 3.5F : y + 2.5F, z});
+    xyz.insert(xyz.end(), {x + moved + (left ? 50.F : 0.F), i < 1331 ? y - 3.5F : y + 2.5F, z});
   }
   return xyz;
 }
@@ -57,13 +57,15 @@ class Streaming {
   std::string url() const { return "http://127.0.0.1:" + port + "/"; }
   PipelineConfig config() const { return pipeline_.config(); }
   void lose_one() { lose_ = true; }
+  /// The cubes are replaced by others, so that their tracks end.
+  void replace() { left_ = true; }
 
   std::string port;
 
  private:
   void run() {
     for (std::uint64_t i = 0; running_; ++i) {
-      const std::vector<float> xyz = cubes(i);
+      const std::vector<float> xyz = cubes(i, left_);
       Frame frame;
       frame.header = {i, static_cast<std::int64_t>(i) * 50'000'000, "<i>lidar</i>"};
       frame.points = PointView::of(xyz.data(), 12, xyz.size() / 3);
@@ -81,7 +83,7 @@ class Streaming {
   FramePipeline pipeline_;
   FrameResult result_;
   std::unique_ptr<FrameSink> sink_;
-  std::atomic<bool> running_{true}, lose_{false};
+  std::atomic<bool> running_{true}, lose_{false}, left_{false};
   std::thread thread_;
 };
 
@@ -166,6 +168,43 @@ TEST_F(LivePage, StepsThroughTheLastFramesWhileItIsPaused) {
   browser.until("pclBv.state.seq > " + std::to_string(seq));
   browser.press(" ");
   browser.until("!pclBv.state.paused && pclBv.state.seq > " + std::to_string(seq + 10));
+}
+
+TEST_F(LivePage, PicksATrackNoMoreThatHasEnded) {
+  Streaming streaming;
+  open(streaming);
+  browser.until(
+      "[...document.querySelectorAll('#object-rows tr')].some((row) => row.dataset.key === 'track 0')");
+  browser.run("document.querySelector('#object-rows tr[data-key=\"track 0\"]').click()");
+  browser.until("pclBv.picked === 'track 0'");
+  streaming.replace();
+  browser.until("!document.getElementById('picked-gone').hidden");
+  EXPECT_EQ(text_of("picked-gone"), "track 0 is not in this frame.");
+  browser.until("pclBv.picked === null && document.getElementById('picked-gone').hidden");
+  EXPECT_EQ(text_of("notice"), "track 0 has ended.");
+}
+
+TEST_F(LivePage, ShowsAllOfItsFooterOnAPhone) {
+  const Streaming streaming;
+  for (const auto& [width, height] : {std::pair(360, 640), {390, 844}, {640, 360}}) {
+    Browser phone(width, height);
+    phone.open(streaming.url());
+    phone.until(
+        "window.pclBv && pclBv.frames > 5 && document.getElementById('drop-text').textContent !== ''");
+    EXPECT_EQ(phone.run("return innerWidth"), width);
+    EXPECT_EQ(
+        phone.run("return document.querySelector('footer').getBoundingClientRect().bottom <= innerHeight"),
+        true);
+    for (const char* text : {"total-text", "rate-text", "drop-text"}) {
+      const std::string whole =
+          std::string("const text = document.getElementById('") + text +
+          "'), caption = text.closest('figcaption');"
+          "const range = document.createRange(); range.selectNodeContents(text);"
+          "const a = range.getBoundingClientRect(), b = caption.getBoundingClientRect();"
+          "return a.bottom <= b.bottom + 1 && a.right <= b.right + 1";
+      EXPECT_EQ(phone.run(whole), true) << text << " at " << width;
+    }
+  }
 }
 
 TEST_F(LivePage, CountsLostFrames) {

@@ -27,6 +27,7 @@ const SAMPLE = 4096; // maximum number of points for computing the view and the 
 const PICK_PIXELS = 3;
 const PLOT_MS = 200; // plots are drawn five times a second
 const MAX_OBJECTS = 1 << 20; // maximum number of objects with a colour for their points
+const DEATH = 8; // default of track.death: missed frames until a track ends
 const NARROW = 900; // the side panel starts closed if the page has at most this width in pixels
 
 export class Page {
@@ -123,6 +124,7 @@ export class Page {
     }
     const next = this.history.arrive(frame);
     if (!next) return;
+    this.dropEndedPick(frame.report);
     if (this.dirty.frame) ++this.notDrawn;
     this.show(next);
   }
@@ -251,8 +253,24 @@ export class Page {
 
   pick(key) {
     this.view.picked = key === this.view.picked ? null : key;
+    this.pickedSeq = this.frame?.report.seq ?? 0; // the last frame with the picked object
     if (this.view.picked === null) this.follow(false);
     this.changed("colours");
+  }
+
+  // Picks nothing any more if the picked track has certainly ended: each frame without it is at least a quarter
+  // of a missed frame. Also if frames are numbered anew, because the ids are then those of other objects.
+  dropEndedPick({ clusters, seq }) {
+    const key = this.view.picked;
+    if (key === null) return;
+    if (clusters.some((cluster) => keyOf(cluster) === key)) {
+      this.pickedSeq = seq;
+      return;
+    }
+    const missed = seq - this.pickedSeq;
+    if (missed >= 0 && missed <= 4 * (this.settings?.numberOf("track.death") ?? DEATH)) return;
+    this.pick(key);
+    notice(`${key} has ended.`);
   }
 
   keyAt(px, py) {

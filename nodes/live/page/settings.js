@@ -58,6 +58,12 @@ export class Settings {
     return element("div", { className: "setting" }, label, input, unit, about, note);
   }
 
+  // Returns the value of a number; null if there is no such setting.
+  numberOf(key) {
+    const field = this.fields.get(key);
+    return field && field.input.value !== "" ? Number(field.input.value) : null;
+  }
+
   change(key) {
     const { setting, input, note } = this.fields.get(key);
     note.textContent = "";
