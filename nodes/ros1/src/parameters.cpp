@@ -78,6 +78,39 @@ std::vector<std::string> adapters_in(const YAML::Node& list) {
   return names;
 }
 
+// Calls work(), and adds to its errors the name of the node, and how to remove the parameter: a parameter
+// with `key` stays on the parameter server when the node ends, and would be read again by the next one.
+// Without a key, the error concerns all parameters.
+template <typename Work>
+void with_parameter(const std::string& node, const std::string& key, const Work& work) {
+  const auto fail = [&](const std::string& what) {
+    const std::string path = node + (key.empty() ? "" : '/' + key);
+    throw ConfigError(message_line(node + ": " + what) +
+                      "; parameters stay on the parameter server until 'rosparam delete " + printable(path) +
+                      "'");
+  };
+  try {
+    work();
+  } catch (const ConfigError& error) {
+    fail(error.what());
+  } catch (const std::invalid_argument& error) {
+    fail(key + ": " + error.what());
+  }
+}
+
+// Adds the parameters, such as "preset: indoor, cluster/tolerance: 0.4", to `text`.
+void list_parameters(const YAML::Node& tree, const std::string& path, std::string& text) {
+  for (const auto& entry : tree) {
+    const std::string name = path + entry.first.Scalar();
+    if (entry.second.IsMap()) {
+      list_parameters(entry.second, name + '/', text);
+    } else {
+      const std::string value = entry.second.IsScalar() ? entry.second.Scalar() : "a list";
+      if (!value.empty()) text.append(text.empty() ? "" : ", ").append(name + ": " + value);
+    }
+  }
+}
+
 }  // namespace
 
 NodeConfig config_of(const ros::NodeHandle& parameters) {
@@ -86,38 +119,38 @@ NodeConfig config_of(const ros::NodeHandle& parameters) {
   config.pipeline.threads = 0;
   XmlRpc::XmlRpcValue all;
   if (!parameters.getParam("", all) || all.getType() != XmlRpc::XmlRpcValue::TypeStruct) return config;
-  YAML::Node tree = yaml_of(all);
+  YAML::Node tree;
+  with_parameter(name, "", [&] { tree = yaml_of(all); });
   const auto take = [&](const char* key) {
-    std::string text = tree[key] && tree[key].IsScalar() ? tree[key].Scalar() : std::string();
+    if (tree[key] && !tree[key].IsScalar()) throw std::invalid_argument("is not a text");
+    std::string text = tree[key] ? tree[key].Scalar() : std::string();
     tree.remove(key);
     return text;
   };
-  take("num_worker_threads");  // a parameter of a standalone nodelet's manager, not ours
-  try {
+  tree.remove("num_worker_threads");  // a parameter of a standalone nodelet's manager, not ours
+  list_parameters(tree, "", config.parameters);
+  config.parameters = printable(config.parameters);
+  with_parameter(name, "preset", [&] {
     if (const std::string preset = take("preset"); !preset.empty()) apply_preset(preset, config.pipeline);
-  } catch (const std::invalid_argument& error) {
-    throw ConfigError(message_line(name + ": preset: " + error.what()));
-  }
-  if (const std::string file = take("config"); !file.empty())
-    static_cast<StreamConfig&>(config) = read_stream_config(file, config);
+  });
+  with_parameter(name, "config", [&] {
+    if (const std::string file = take("config"); !file.empty())
+      static_cast<StreamConfig&>(config) = read_stream_config(file, config);
+  });
   if (tree["volumes"] && tree["volumes"].IsScalar()) {  // on a command line: _volumes:=aabb,sphere
     std::vector<std::string> methods;
     read_text(tree["volumes"].Scalar(), methods);
     tree["volumes"] = methods;
   }
-  try {
+  with_parameter(name, "publish", [&] {
     if (tree["publish"]) config.publish = adapters_in(tree["publish"]);
-  } catch (const std::invalid_argument& error) {
-    throw ConfigError(message_line(name + ": publish: " + error.what()));
-  }
+  });
   tree.remove("publish");
-  try {
+  with_parameter(name, "", [&] {
     if (tree.size() > 0)
       static_cast<StreamConfig&>(config) = parse_stream_config(YAML::Dump(tree), "", config);
-    return config;
-  } catch (const ConfigError& error) {
-    throw ConfigError(name + ": " + error.what());
-  }
+  });
+  return config;
 }
 
 }  // namespace pcl_bv
