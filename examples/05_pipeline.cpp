@@ -22,6 +22,8 @@ int main() {
                         0.1F * static_cast<float>(i % 9)});
     cloud->header.stamp = 100'000U * static_cast<unsigned>(frame);  // microseconds
     pipeline.process(cloud, result);
+    for (const std::string& warning : result.warnings)  // without stamps, for example
+      std::fprintf(stderr, "frame %d: %s\n", frame, warning.c_str());
     for (std::size_t i = 0; i < result.clusters.size(); ++i) {
       const Eigen::Vector3d center = pcl_bv::center(result.volume(i, 1));
       std::printf("frame %d: object %d at %.2f %.2f %.2f\n", frame,

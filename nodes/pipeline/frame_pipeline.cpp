@@ -81,9 +81,11 @@ struct FramePipeline::State {
 
   PointView filter(const Prepared& now, const Frame& frame, FrameResult& result);
   const Frame& deskew(const Prepared& now, const Frame& frame, FrameResult& result);
+  void begin(const Frame& frame);
   void remember_pose(const Prepared& now, const Frame& frame, bool tracked);
   void find_sensor(const Prepared& now, const Frame& frame, FrameResult& result);
-  PointView remove_ground(const Prepared& now, const PointView& points, FrameResult& result);
+  PointView remove_ground(const Prepared& now, const Frame& frame, const PointView& points,
+                          FrameResult& result);
   void find_clusters(const Prepared& now, const Frame& frame, const PointView& points, FrameResult& result);
   void refine_clusters(const Prepared& now, const Frame& frame, FrameResult& result);
   void make_views(const PointView& cloud, const FrameResult& result);
@@ -105,6 +107,8 @@ struct FramePipeline::State {
   std::shared_ptr<SupportFinder> supports_by_device;
   ExtentLimits extents;
   TrackedVolumes tracks;
+  std::uint64_t pass = 0;  // of the last frame
+  FrameWarnings warnings;
 };
 
 // If a large cloud needs only the filter, the cloud is filtered chunk by chunk whenever its points are
@@ -114,14 +118,16 @@ PointView FramePipeline::State::filter(const Prepared& now, const Frame& frame, 
   result.passed_filter.clear();
   result.filtered.reset();
   if (!now.reads_points) return cloud;
+  auto filter = now.filter;
+  if (!frame.recorded_origin.isZero(0))
+    filter = std::make_shared<const PointFilter>(filter->with_origin(frame.recorded_origin));
   const bool listed = now.segments || cloud.indices != nullptr;
   if (!listed && (cloud.source != nullptr || cloud.count > kChunkPoints)) {
-    auto filtered = std::make_shared<FilteredPoints>(cloud, frame.owner, now.filter, frame.sensors);
+    auto filtered = std::make_shared<FilteredPoints>(cloud, frame.owner, filter, frame.sensors);
     result.counts = filtered->count(now.execution.parallel);
     result.filtered = std::move(filtered);
   } else {
-    now.filter->select(cloud, frame.sensors, now.execution.parallel, result.passed_filter, parts,
-                       result.counts);
+    filter->select(cloud, frame.sensors, now.execution.parallel, result.passed_filter, parts, result.counts);
   }
   return result.points_after_filter(cloud);
 }
@@ -138,9 +144,17 @@ const Frame& FramePipeline::State::deskew(const Prepared& now, const Frame& fram
   moved.classes = frame.classes;
   moved.pose = frame.pose;
   moved.sensor = frame.sensor;
+  moved.recorded_origin = frame.recorded_origin;
   moved.sensors = frame.sensors;
   moved.recorded_ns = frame.recorded_ns;
   return moved;
+}
+
+// Forgets the frames of an earlier pass over the source. Another pass does not continue them.
+void FramePipeline::State::begin(const Frame& frame) {
+  if (std::exchange(pass, frame.pass) == frame.pass) return;
+  tracks.reset();
+  deskewer.reset();
 }
 
 // Tells the deskewer the pose of the frame: its own one or, if it was tracked, the tracker's.
@@ -154,7 +168,7 @@ void FramePipeline::State::remember_pose(const Prepared& now, const Frame& frame
 // them. Uses ground.sensor without a check. Uses Frame::sensor only if the points lie around this position.
 void FramePipeline::State::find_sensor(const Prepared& now, const Frame& frame, FrameResult& result) {
   const PipelineConfig& config = now.config;
-  result.sensor = {};
+  result.sensor = {frame.recorded_origin};
   result.around_origin = true;
   const bool counts_from_origin = config.filter.range_max < std::numeric_limits<double>::infinity() ||
                                   config.cluster.tolerance_per_metre > 0;
@@ -163,7 +177,7 @@ void FramePipeline::State::find_sensor(const Prepared& now, const Frame& frame, 
   const auto find_around = [&](const Eigen::Vector3d& position) {
     return pcl_bv::find_sensor(frame.points, config.ground.up, position, result.ground.scratch);
   };
-  result.sensor = find_around(Eigen::Vector3d::Zero());
+  result.sensor = find_around(frame.recorded_origin);
   result.around_origin = result.sensor.confirmed || !frame.sensors.empty();
   if (config.ground.sensor) {
     result.sensor = find_around(*config.ground.sensor);
@@ -174,10 +188,10 @@ void FramePipeline::State::find_sensor(const Prepared& now, const Frame& frame, 
   }
 }
 
-PointView FramePipeline::State::remove_ground(const Prepared& now, const PointView& points,
-                                              FrameResult& result) {
+PointView FramePipeline::State::remove_ground(const Prepared& now, const Frame& frame,
+                                              const PointView& points, FrameResult& result) {
   const GroundConfig& config = now.config.ground;
-  split_ground(points, config, result.sensor, now.execution, zones, result.ground);
+  split_ground(points, config, result.sensor, frame.recorded_origin, now.execution, zones, result.ground);
   result.ground.sensor = result.sensor;
   if (config.method == GroundMethod::none) return points;
   result.counts.ground = result.ground.ground.size();
@@ -219,17 +233,20 @@ void FramePipeline::State::limit_extents(const Prepared& now, const PointView& c
 void FramePipeline::State::find_clusters(const Prepared& now, const Frame& frame, const PointView& points,
                                          FrameResult& result) {
   const ClusterConfig& config = now.config.cluster;
+  std::optional<ClassTable> moved_classes;
+  if (!frame.recorded_origin.isZero(0)) moved_classes = now.classes.with_origin(frame.recorded_origin);
+  const ClassTable& classes = moved_classes ? *moved_classes : now.classes;
   result.class_of.clear();
   if (config.tolerance == 0) {
     make_one_cluster(config, points, result);
   } else if (!config.class_field) {
-    clusterer.extract(points, now.classes.default_options(), result.clusters, now.execution);
+    clusterer.extract(points, classes.default_options(), result.clusters, now.execution);
   } else {
     if (frame.classes == nullptr)
       throw std::invalid_argument("the frame has no classes, but cluster.class_field is '" +
                                   config.class_field->name + "'");
-    class_clusterer.extract(points, *frame.classes, now.classes.default_options(),
-                            now.classes.class_options(), result.clusters, result.class_of, now.execution);
+    class_clusterer.extract(points, *frame.classes, classes.default_options(), classes.class_options(),
+                            result.clusters, result.class_of, now.execution);
   }
   refine_clusters(now, frame, result);
   limit_extents(now, frame.points, result);
@@ -328,6 +345,10 @@ PipelineConfig FramePipeline::config() const {
   return state_->current()->config;
 }
 
+void FramePipeline::set_warnings(FrameWarnings warnings) {
+  state_->warnings = std::move(warnings);
+}
+
 void FramePipeline::set_support_finder(std::shared_ptr<SupportFinder> finder) {
   state_->supports_by_device = std::move(finder);
 }
@@ -347,6 +368,7 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
   result.counts = Counts();
   result.ms = StageTimes();
   result.ms.decode = frame.decode_ms;
+  state_->begin(frame);
 
   if (now->segments && frame.points.source != nullptr)
     throw std::invalid_argument(
@@ -356,7 +378,7 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
   if (result.deskew.moved()) points = result.points_after_filter(used.points);
   result.ms.filter = watch.lap();
   state_->find_sensor(*now, used, result);
-  points = state_->remove_ground(*now, points, result);
+  points = state_->remove_ground(*now, used, points, result);
   result.ms.ground = watch.lap();
   state_->find_clusters(*now, used, points, result);
   result.ms.cluster = watch.lap();
@@ -371,20 +393,24 @@ void FramePipeline::process(const Frame& frame, FrameResult& result) {
   const bool tracked = now->config.track.enabled && !nothing;
   if (tracked) {
     state_->tracks.update(now->config.track, now->execution.isa, state_->views, used, result);
+    if (result.track_time == TrackTime::restarted) state_->deskewer.reset();
   } else {
     state_->tracks.reset();
   }
   state_->remember_pose(*now, used, tracked);
   result.ms.track = watch.lap();
   result.ms.total = whole.lap();
+  result.warnings = state_->warnings.take(frame, result);
 }
 
 void FramePipeline::reserve(std::size_t points, FrameResult& result) {
   const Frame frame = synthetic_sweep(points, state_->current()->config);
+  const FrameWarnings warnings = state_->warnings;
   for (int pass = 0; pass < 2; ++pass)  // the first pass creates tracks, the second one updates them
     process(frame, result);
   state_->tracks = TrackedVolumes();
   state_->deskewer.reset();
+  state_->warnings = warnings;
 }
 
 }  // namespace pcl_bv

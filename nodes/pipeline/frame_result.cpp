@@ -91,6 +91,10 @@ std::string track_warning(const FrameResult& result) {
       return "frame stamps do not advance: tracking uses the recording times";
     case TrackTime::none:
       return "frame stamps do not advance: tracks are expected at their last positions";
+    case TrackTime::gap:
+      return "frames are more than 1 s apart: tracks are expected at their last positions";
+    case TrackTime::restarted:
+      return "frame stamps went back by more than 1 s: tracks begin anew";
     default:
       return {};
   }

@@ -116,17 +116,25 @@ std::string level_ground(const Found& f) {
          " m below the sensor, within 0.5 m: level ground is assumed there";
 }
 
-std::string stamps_do_not_advance(const Found& f) {
-  return track_warning(f.result);
+template <TrackTime... times>
+std::string track_times(const Found& f) {
+  return ((f.result.track_time == times) || ...) ? track_warning(f.result) : std::string();
 }
 
 std::string points_not_moved(const Found& f) {
   return deskew_warning(f.result);
 }
 
-constexpr std::string (*kKinds[])(const Found&) = {
-    no_ground,  little_ground, sensor_elsewhere,      origin_elsewhere,
-    far_points, level_ground,  stamps_do_not_advance, points_not_moved};
+constexpr std::string (*kKinds[])(const Found&) = {no_ground,
+                                                   little_ground,
+                                                   sensor_elsewhere,
+                                                   origin_elsewhere,
+                                                   far_points,
+                                                   level_ground,
+                                                   track_times<TrackTime::recorded, TrackTime::none>,
+                                                   track_times<TrackTime::gap>,
+                                                   track_times<TrackTime::restarted>,
+                                                   points_not_moved};
 
 }  // namespace
 

@@ -14,7 +14,8 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr std::int64_t kLongestStep = 2'000'000'000;  // nanoseconds
+// Nanoseconds. The tracker predicts nothing over a longer step than kLongestKnownStep.
+constexpr std::int64_t kLongestKnownStep = 1'000'000'000, kLongestStep = 2 * kLongestKnownStep;
 
 // Returns the mean of x and y of the valid points. Without clustering, the points may be invalid, or filtered
 // when they are loaded. There must be a valid point.
@@ -73,31 +74,42 @@ void TrackedVolumes::filter_boxes(const Tracker::Assignment& assignment, const T
   }
 }
 
+namespace {
+
+// Returns the time from one stamp to a later one, at most kLongestStep; 0 if the other stamp is not later.
+std::int64_t time_passed(std::int64_t from, std::int64_t to) {
+  std::int64_t nanoseconds = 0;
+  if (to <= from) return 0;
+  return __builtin_sub_overflow(to, from, &nanoseconds) ? kLongestStep : std::min(nanoseconds, kLongestStep);
+}
+
+}  // namespace
+
 // The step is the difference of the stamps or, if the stamp did not advance, of the recording times. A stamp
 // that did not advance is not trusted. Therefore, if the recording time advances, the step to the next frame
-// is the difference of the recording times, too.
+// is the difference of the recording times, too. A stamp that goes back by more than a second is that of a
+// source that has begun again, such as a recording that is repeated.
 //
 // The time must not overflow, not even if a driver sometimes writes the stamp 0. Therefore the first time is
 // at most INT64_MAX / 2, and each step is at most two seconds. The limit of steps does not change tracks,
 // because the tracker treats all steps above one second in the same way.
 std::int64_t TrackClock::at(std::int64_t stamp_ns, std::int64_t recorded_ns) {
-  const auto passed = [](std::int64_t from, std::int64_t to) {
-    std::int64_t nanoseconds = 0;
-    if (to <= from) return nanoseconds;
-    return __builtin_sub_overflow(to, from, &nanoseconds) ? kLongestStep
-                                                          : std::min(nanoseconds, kLongestStep);
-  };
-  const std::int64_t by_stamps = started_ ? passed(stamp_ns_, stamp_ns) : 0;
-  const std::int64_t by_records = started_ && recorded_ns_ != 0 ? passed(recorded_ns_, recorded_ns) : 0;
-  const bool distrusted = source_ == TrackTime::recorded && by_records > 0;
+  const std::int64_t by_stamps = time_passed(stamp_ns_, stamp_ns);
+  const std::int64_t by_records = recorded_ns_ != 0 ? time_passed(recorded_ns_, recorded_ns) : 0;
+  const bool uses_records = by_records > 0 && (by_stamps == 0 || distrusts_stamp_);
+  distrusts_stamp_ = false;
   if (!started_) {
     now_ns_ = std::min(stamp_ns, INT64_MAX / 2);
-  } else if (by_stamps > 0 && !distrusted) {
-    source_ = TrackTime::stamps;
-    now_ns_ += by_stamps;
+  } else if (time_passed(stamp_ns, stamp_ns_) > kLongestKnownStep) {
+    source_ = TrackTime::restarted;
   } else {
-    source_ = by_stamps > 0 ? TrackTime::stamps : by_records > 0 ? TrackTime::recorded : TrackTime::none;
-    now_ns_ += by_records;
+    const std::int64_t step = uses_records ? by_records : by_stamps;
+    distrusts_stamp_ = by_stamps == 0 && by_records > 0;
+    source_ = step > kLongestKnownStep ? TrackTime::gap
+              : by_stamps > 0          ? TrackTime::stamps
+              : by_records > 0         ? TrackTime::recorded
+                                       : TrackTime::none;
+    now_ns_ += step;
   }
   started_ = true;
   stamp_ns_ = stamp_ns;
@@ -105,12 +117,19 @@ std::int64_t TrackClock::at(std::int64_t stamp_ns, std::int64_t recorded_ns) {
   return now_ns_;
 }
 
+// Deletes the tracks of a source that has begun again: they have nothing in common with this frame.
+void TrackedVolumes::predict_tracks(const Frame& frame) {
+  const std::int64_t now_ns = clock_.at(frame.header.stamp_ns, frame.recorded_ns);
+  if (clock_.source() == TrackTime::restarted) tracker_.reset();
+  tracker_.predict(now_ns, boxes_, frame.pose);
+}
+
 const std::vector<KnownObject>& TrackedVolumes::predict(const std::vector<PointView>& clusters,
                                                         const Frame& frame) {
   boxes_.clear();
   for (const PointView& cluster : clusters)
     boxes_.push_back(tracked_box(*fit_aabb(cluster), cluster));
-  tracker_.predict(clock_.at(frame.header.stamp_ns, frame.recorded_ns), boxes_, frame.pose);
+  predict_tracks(frame);
   tracker_.list_known(known_);
   predicted_ = true;
   return known_;
@@ -141,7 +160,7 @@ void TrackedVolumes::update(const TrackConfig& config, UsableIsa isa, const std:
   boxes_.clear();
   for (std::size_t i = 0; i < result.clusters.size(); ++i)
     boxes_.push_back(tracked_box(box_of(result, i, clusters[i]), clusters[i]));
-  if (!predicted_) tracker_.predict(clock_.at(frame.header.stamp_ns, frame.recorded_ns), boxes_, frame.pose);
+  if (!predicted_) predict_tracks(frame);
   viewpoints_.find(frame.sensors, result.points_after_filter(frame.points));
   tracker_.assign(boxes_, config, assignments_, viewpoints_);
   if (predicted_) know_objects(isa, clusters, result);

@@ -26,6 +26,7 @@ class TrackClock {
 
  private:
   bool started_ = false;
+  bool distrusts_stamp_ = false;  // the last stamp did not advance, but its recording time did
   std::int64_t now_ns_ = 0, stamp_ns_ = 0, recorded_ns_ = 0;  // times of the last frame
   TrackTime source_ = TrackTime::stamps;
 };
@@ -54,6 +55,7 @@ class TrackedVolumes {
   }
 
  private:
+  void predict_tracks(const Frame& frame);
   void know_objects(UsableIsa isa, const std::vector<PointView>& clusters, const FrameResult& result);
   void filter_boxes(const Tracker::Assignment& assignment, const TrackConfig& config, std::size_t cluster,
                     const PointView& points, FrameResult& result);

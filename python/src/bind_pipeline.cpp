@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <mutex>
+#include <optional>
 
 #include "bind.h"
 #include "config_dict.h"
@@ -21,20 +22,16 @@ class PipelineObject {
  public:
   explicit PipelineObject(PipelineConfig config) : pipeline_(std::move(config)) {}
 
-  /// Processes a frame. Returns the warnings that this pipeline has not given before.
-  std::vector<std::string> process(const Frame& frame, ResultObject& object) {
+  /// Processes a frame with the number `seq` or, without it, the next number. Returns the warnings that this
+  /// pipeline has not given before.
+  std::vector<std::string> process(Frame& frame, std::optional<std::uint64_t> seq, ResultObject& object) {
     const std::lock_guard lock(mutex_);
     FrameResult& result = object.result;
-    if (frame.header.seq == 0) {
-      Frame counted = frame;
-      counted.header.seq = next_++;
-      pipeline_.process(counted, result);
-    } else {
-      next_ = frame.header.seq + 1;
-      pipeline_.process(frame, result);
-    }
+    frame.header.seq = seq.value_or(next_);
+    next_ = frame.header.seq + 1;
+    pipeline_.process(frame, result);
     object.own_deskewed_points();
-    std::vector<std::string> warnings = warnings_.take(frame, result);
+    std::vector<std::string> warnings = result.warnings;
     if (frame.times && result.config->deskew == Deskew::off && !std::exchange(warned_of_times_, true))
       warnings.emplace_back("times have no effect, because the setting deskew is 'off'");
     return warnings;
@@ -45,7 +42,6 @@ class PipelineObject {
  private:
   std::mutex mutex_;
   FramePipeline pipeline_;
-  FrameWarnings warnings_;
   std::uint64_t next_ = 0;
   bool warned_of_times_ = false;
 };
@@ -72,7 +68,8 @@ std::shared_ptr<ResultObject> process_frame(PipelineObject& self, py::handle poi
   frame.header.stamp_ns = signed_number(stamp_ns, "stamp_ns");
   frame.recorded_ns = signed_number(recorded_ns, "recorded_ns");
   frame.header.frame_id = text(frame_id, "frame_id");
-  if (!seq.is_none()) frame.header.seq = whole_number(seq, "seq", {0, kNoLimit});
+  std::optional<std::uint64_t> number;
+  if (!seq.is_none()) number = whole_number(seq, "seq", {0, kNoLimit});
   if (!classes.is_none())
     frame.classes =
         std::make_shared<std::vector<std::int64_t>>(integers(classes, "classes", result->points.view.count));
@@ -85,7 +82,7 @@ std::shared_ptr<ResultObject> process_frame(PipelineObject& self, py::handle poi
   std::vector<std::string> warnings;
   {
     const py::gil_scoped_release unlocked;
-    warnings = self.process(frame, *result);
+    warnings = self.process(frame, number, *result);
   }
   for (const std::string& text : warnings)
     warn(text);
@@ -148,19 +145,21 @@ Processes one frame. Frames of a stream must be passed in the order of their sta
 
 points: as for fit(), in the sensor's frame, metres. They are not copied. The result keeps the array alive.
     Later changes of the array appear in the result's pictures.
-stamp_ns: time at which the sensor took the frame, nanoseconds. Tracking needs it.
-frame_id, seq: stored in the result. Without seq, or with 0, the pipeline counts the frames.
+stamp_ns: time at which the sensor took the frame, nanoseconds. Tracking needs it: without it, speeds are 0. If
+    it goes back by more than a second, tracks begin anew. Their ids are not reused.
+frame_id, seq: stored in the result. Without seq, the pipeline counts the frames.
 pose: pose of the sensor in a fixed frame, 4 x 4, for tracks over the ground.
 times: time at which each point was measured, for the setting deskew. Seconds, milliseconds, microseconds or
     nanoseconds (the unit is found from the span, a sweep of 1 ms to 1 s), after stamp_ns or since 1970. Floats
     or integers, any shape. Only points that are not finite may have a time that is not finite.
 classes: an integer for each point, for cluster.class_field and cluster.classes.
-recorded_ns: time at which the frame was recorded or received, nanoseconds. Tracking uses it if the stamps do
-    not advance, and warns once (UserWarning).
+recorded_ns: time at which the frame was recorded or received, nanoseconds; 0 if unknown. Tracking uses it if
+    the stamps do not advance.
 
 Returns a Result. Raises errors as fit() does. Raises ValueError if the number of times is not that of the
 points. Warns (UserWarning, each kind once per pipeline and setting) if no ground is found, if everything is
-ground, if the points do not lie around the sensor, and if deskew is 'on' but points could not be moved.
+ground, if the points do not lie around the sensor, if stamps of tracked frames do not advance, go back or advance
+by more than a second, and if deskew is 'on' but points could not be moved.
 
 >>> import pcl_bv
 >>> pipeline = pcl_bv.Pipeline(track={'enabled': True, 'birth': 1})

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -586,6 +587,39 @@ TEST_F(BvStream, SaysOnceThatThereIsNoGround) {
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(result.error_lines(), 1u) << result.err;
   EXPECT_THAT(result.err, HasSubstr("walls/1.pcd: frame 0: no ground found (up is z): try --up"));
+}
+
+std::set<int> tracks_of(const std::vector<Json>& frames, std::size_t first, std::size_t end) {
+  std::set<int> tracks;
+  for (std::size_t i = first; i < end; ++i)
+    for (const Json& cluster : frames[i]["clusters"])
+      if (cluster["track"].is_number()) tracks.insert(cluster["track"].get<int>());
+  return tracks;
+}
+
+TEST_F(BvStream, EachPassOfALoopHasTracksOfItsOwnAndLaterStamps) {
+  const std::string clouds = synth("street-sequence:6:1");
+  std::filesystem::create_directory(at("named"));
+  for (int i = 0; i < 6; ++i) {
+    const std::string number = std::to_string(i), name = "/00000" + number + ".pcd";
+    std::filesystem::copy_file(clouds + name, at("named/1700000000." + number + ".pcd"));
+  }
+  for (const std::string& stamps : {std::string("rate"), std::string("name")}) {
+    const Result result =
+        stream({"--source", stamps == "name" ? at("named") : clouds, "--stamps", stamps, "--rate", "max",
+                "--loop", "2", "--track", "--range", "1:40", "--min-size", "30", "--volume", "aabb"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const std::vector<Json> frames = lines(result.out);
+    ASSERT_EQ(frames.size(), 12U);
+    for (std::size_t i = 1; i < 12; ++i)
+      EXPECT_GT(frames[i]["stamp_ns"].get<std::int64_t>(), frames[i - 1]["stamp_ns"].get<std::int64_t>());
+    const std::set<int> first = tracks_of(frames, 0, 6), second = tracks_of(frames, 6, 12);
+    EXPECT_GT(first.size(), 10U);
+    EXPECT_EQ(second.size(), first.size());
+    EXPECT_GT(*second.begin(), *first.rbegin());
+    for (const Json& cluster : frames[6]["clusters"])
+      EXPECT_TRUE(cluster["track"].is_null());
+  }
 }
 
 }  // namespace

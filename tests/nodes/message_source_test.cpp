@@ -73,11 +73,29 @@ TEST(MessageSource, GivesTheCloudWhereItLies) {
   EXPECT_THAT(source->take_warnings(), testing::ElementsAre("3 lost on the way"));
 }
 
-TEST(MessageSource, HasTheTimeOfSendingWhereTheStampIsZero) {
-  const auto source = vector_source({cloud_at(0, {1, 2, 3})});
-  Frame frame;
-  ASSERT_EQ(source->next(frame, 0ms), Next::frame);
-  EXPECT_EQ(frame.header.stamp_ns, 77);
+std::vector<std::int64_t> stamps_of(FrameSource& source) {
+  std::vector<std::int64_t> stamps;
+  for (Frame frame; source.next(frame, 0ms) == Next::frame;)
+    stamps.push_back(frame.header.stamp_ns);
+  return stamps;
+}
+
+// A folder of clouds begins at 0, and so may a simulation.
+TEST(MessageSource, AStampOfZeroIsAStamp) {
+  const auto source = vector_source({cloud_at(0, {1, 2, 3}), cloud_at(1, {1, 2, 3}), cloud_at(0, {1, 2, 3})});
+  EXPECT_THAT(stamps_of(*source), testing::ElementsAre(0, 1'000'000'000, 0));
+  EXPECT_THAT(source->take_warnings(), testing::ElementsAre("3 lost on the way"));
+}
+
+TEST(MessageSource, HasTheTimesOfSendingWhereADriverWritesNoStamps) {
+  const Bytes none = cloud_at(0, {1, 2, 3});
+  const auto source = vector_source({none, none, none, cloud_at(5, {1, 2, 3}), none});
+  EXPECT_THAT(stamps_of(*source), testing::ElementsAre(0, 77, 77, 5'000'000'000, 0));
+  EXPECT_THAT(
+      source->take_warnings(),
+      testing::ElementsAre("3 lost on the way",
+                           "the clouds have no stamps (all are 0): their times of sending or recording "
+                           "are used instead"));
 }
 
 TEST(MessageSource, GoesOnAfterWhatIsNoCloud) {

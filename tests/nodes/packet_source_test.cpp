@@ -45,6 +45,8 @@ TEST_F(PacketSource, GivesAFrameForEachRevolution) {
   EXPECT_GT(frames[1].header.stamp_ns, frames[0].header.stamp_ns);
   EXPECT_EQ(frames[3].header.stamp_ns, frames[0].header.stamp_ns);
   EXPECT_EQ(frames[5].header.seq, 5U);
+  EXPECT_EQ(frames[2].pass, 0U);
+  EXPECT_EQ(frames[3].pass, 1U);
   EXPECT_EQ(frames[1].header.frame_id, "velodyne");
   EXPECT_GT(frames[1].points.count, 28'000U);
   EXPECT_NEAR(load_point(frames[1].points, 0).y, 2 * std::cos(15 * 3.14159265358979 / 180), 0.1);

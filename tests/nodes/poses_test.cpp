@@ -136,5 +136,22 @@ TEST_F(Poses, RepeatWithTheirRecording) {
   }
 }
 
+TEST_F(Poses, ByTimeRepeatWithTheirFolder) {
+  add("0.pcd", 3);
+  add("1.pcd", 3);
+  write("poses.txt", "0 5 0 0 0 0 0 1\n0.1 6 0 0 0 0 0 1\n");
+  ReplayOptions options{10, false, 0, 2};
+  options.poses = path_ / "poses.txt";
+  const auto source = open_source(path_, options);
+  Frame frame;
+  for (int i = 0; i < 4; ++i) {
+    ASSERT_EQ(source->next(frame, std::chrono::seconds(20)), Next::frame);
+    EXPECT_EQ(frame.header.stamp_ns, i * 100'000'000);
+    EXPECT_EQ(frame.pass, i / 2);
+    ASSERT_TRUE(frame.pose) << i;
+    expect_maps(*frame.pose, {0, 0, 0}, {5.0 + i % 2, 0, 0});
+  }
+}
+
 }  // namespace
 }  // namespace pcl_bv::detail

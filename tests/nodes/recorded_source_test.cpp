@@ -123,6 +123,38 @@ TEST_F(RecordedSource, WithoutAStampTakesWhenItWasRecorded) {
   EXPECT_EQ(frames_of(*open_source(file(), as_recorded()))[0].header.stamp_ns, 77'000'000);
 }
 
+TEST_F(RecordedSource, AStampOfZeroIsAStampIfTheNextOneIsNotZero) {
+  record({"/points"}, 3, [](std::size_t i, msg::PointCloud2& cloud) {
+    cloud.header.stamp = msg::time_of(static_cast<std::int64_t>(i) * 100'000'000);
+  });
+  const auto source = open_source(file(), as_recorded());
+  const std::vector<Frame> frames = frames_of(*source);
+  ASSERT_EQ(frames.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(frames[i].header.stamp_ns, static_cast<std::int64_t>(i) * 100'000'000);
+  EXPECT_THAT(source->take_warnings(), testing::IsEmpty());
+}
+
+TEST_F(RecordedSource, WithoutAnyStampTakesWhenCloudsWereRecordedAndSaysSo) {
+  record({"/points"}, 3, [](std::size_t, msg::PointCloud2& cloud) { cloud.header.stamp = {}; });
+  const auto source = open_source(file(), as_recorded());
+  const std::vector<Frame> frames = frames_of(*source);
+  ASSERT_EQ(frames.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(frames[i].header.stamp_ns, 77'000'000 + static_cast<std::int64_t>(i));
+  EXPECT_THAT(source->take_warnings(), testing::ElementsAre(testing::HasSubstr("the clouds have no stamps")));
+}
+
+TEST_F(RecordedSource, NumbersItsPasses) {
+  record({"/points"});
+  ReplayOptions options = as_recorded();
+  options.loops = 2;
+  const std::vector<Frame> frames = frames_of(*open_source(file(), options));
+  ASSERT_EQ(frames.size(), 6U);
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_EQ(frames[i].pass, i / 3);
+}
+
 TEST_F(RecordedSource, OfSeveralTopicsWantsOneNamed) {
   record({"/front", "/rear"});
   EXPECT_EQ(refusal({}), "several topics have clouds: /front, /rear; choose one with --topic");

@@ -22,6 +22,37 @@ def run(*arguments):
     return children.run([os.path.join(BIN, arguments[0]), *arguments[1:]], capture_output=True).stdout
 
 
+class Stamps(unittest.TestCase):
+    """Of tracked frames."""
+
+    def tracked(self):
+        return pcl_bv.Pipeline(ground={"method": "none"}, cluster={"tolerance": 1.0, "min_size": 2},
+                               track={"enabled": True, "birth": 1})
+
+    def block(self, frame):
+        return np.random.default_rng(1).random((50, 3)) + [10 + 0.5 * frame, 0, 0]
+
+    def test_tracks_without_stamps_have_a_warning(self):
+        pipeline = self.tracked()
+        pipeline.process(self.block(0))
+        with self.assertWarnsRegex(UserWarning, "^frame stamps do not advance"):
+            pipeline.process(self.block(1))
+
+    def test_stamps_that_go_back_begin_new_tracks(self):
+        pipeline = self.tracked()
+        ids = [set(), set()]
+        for play in range(2):
+            with warnings.catch_warnings(record=True) as given:
+                warnings.simplefilter("always")
+                for frame in range(20):
+                    result = pipeline.process(self.block(frame), stamp_ns=frame * 100_000_000)
+                    ids[play].add(result.clusters[0].track.id)
+            self.assertEqual([str(one.message) for one in given],
+                             ["frame stamps went back by more than 1 s: tracks begin anew"] if play else [])
+        self.assertEqual([len(some) for some in ids], [1, 1])
+        self.assertFalse(ids[0] & ids[1])
+
+
 class Warnings(unittest.TestCase):
     """Of clouds that do not lie around their sensor."""
 

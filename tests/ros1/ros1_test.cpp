@@ -137,7 +137,13 @@ TEST_F(Ros1, RefusesParametersThatAreNotAllowed) {
   refuses("_cluster/tolerance:=far", "cluster.tolerance: 'far' is not a number");
   refuses("_cluster/tolerence:=1", "unknown key 'cluster.tolerence'");
   refuses("_volumes:=ball", "'ball'");
-  refuses("_preset:=moon", "preset: 'moon' is not");
+  refuses("_preset:=moon",
+          "preset: 'moon' is not one of road, indoor, table; parameters stay on the parameter server until "
+          "'rosparam delete /cluster_volumes/preset'");
+  ros().setParam("/cluster_volumes/preset", "moon");  // of an earlier run
+  refuses("_volumes:=aabb", "'rosparam delete /cluster_volumes/preset'");
+  ros().setParam("/cluster_volumes/preset", std::vector<int>{1});
+  refuses("_volumes:=aabb", "preset: is not a text");
   refuses("_config:=" + at("nothing.yaml"), at("nothing.yaml"));
   std::ofstream(at("bad.yaml")) << "filter:\n  range_min: -2\n";
   refuses("_config:=" + at("bad.yaml"), "bad.yaml: line 2: filter.range_min: -2 is not at least 0");
@@ -160,6 +166,22 @@ TEST_F(Ros1, ANodeletInAManagerDoesTheSame) {
   Heard<MarkerArray> markers(ros(), "markers");
   EXPECT_TRUE(wait_for([&] { return !markers.connected(); }));
   EXPECT_FALSE(manager->ended());
+}
+
+// The labels have the stamps that the node uses.
+TEST_F(Ros1, AStampOfZeroIsAStampAndWithoutStampsALineSaysSo) {
+  const auto running = node({"_ground/method:=none"});
+  Heard<sensor_msgs::PointCloud2> labels(ros(), "labels");
+  const Lidar lidar(ros());
+  ASSERT_TRUE(lidar.heard()) << running->errors();
+  for (std::size_t i = 1; i <= 2; ++i) {
+    sensor_msgs::PointCloud2 cloud = cube();
+    cloud.header.stamp = ros::Time();
+    lidar.send(cloud);
+    ASSERT_TRUE(wait_for([&] { return labels.size() == i; }));
+    EXPECT_EQ(labels.all().back()->header.stamp.isZero(), i == 1);
+  }
+  EXPECT_TRUE(wait_for([&] { return running->errors().find("have no stamps") != std::string::npos; }));
 }
 
 TEST_F(Ros1, CountsHostileCloudsAndLives) {

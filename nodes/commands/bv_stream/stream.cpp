@@ -20,6 +20,7 @@
 #include "commands/shared/messages.h"
 #include "commands/shared/setting_options.h"
 #include "commands/shared/values.h"
+#include "pass_stamps.h"
 #include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/untrusted_text.h"
@@ -102,8 +103,11 @@ class Reader {
         const Next next = source.next(frame, kPollInterval);
         more = next != Next::end;
         print_warnings(source);
-        if (next == Next::frame) hand_over(std::move(frame));
-      } catch (const FrameError& error) {
+        if (next != Next::frame) continue;
+        stamps_.move(frame);
+        hand_over(std::move(frame));
+      } catch (FrameError& error) {
+        if (error.frame.header.stamp_ns >= 0) stamps_.move(error.frame);
         if (paced() && error.frame.header.stamp_ns >= 0) due(error.frame);  // advances the schedule
         runner_.report_unreadable(error.frame, error.reason);
       } catch (const std::exception& error) {
@@ -180,6 +184,7 @@ class Reader {
   const std::atomic<bool>& interrupted_;
   const Clock::time_point begin_ = Clock::now();
   Clock::time_point reported_ = begin_;
+  PassStamps stamps_;
   std::uint64_t paced_ = 0;
   std::int64_t last_stamp_ns_ = 0;
   double seconds_ = 0, step_ = 0;
@@ -228,12 +233,12 @@ StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, 
                                      Progress& progress) {
   StreamRunner::Callbacks callbacks;
   callbacks.process = [&](const Frame& frame, FrameResult& result) { pipeline.process(frame, result); };
-  callbacks.on_result = [&, last_note = std::string(), warnings = FrameWarnings(option_names(true)),
-                         out_of_range = false](const Frame& frame, const FrameResult& result) mutable {
+  callbacks.on_result = [&, last_note = std::string(), out_of_range = false](
+                            const Frame& frame, const FrameResult& result) mutable {
     sinks.write(frame, result);
     if (!frame.note.empty() && frame.note != last_note) report_problem(named(frame, frame.note));
     last_note = frame.note;
-    for (const std::string& warning : warnings.take(frame, result))
+    for (const std::string& warning : result.warnings)
       report_problem(named(frame, warning));
     // Report the range warning only if the frame before had none. The texts are not compared, because the
     // numbers in them change from frame to frame.
@@ -260,6 +265,7 @@ StreamRunner::Callbacks callbacks_of(FramePipeline& pipeline, SinkGroup& sinks, 
 int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
   const std::unique_ptr<FrameSource> source = open(options);
   FramePipeline pipeline(pipeline_config(options.config));  // reads region files before outputs are opened
+  pipeline.set_warnings(FrameWarnings(option_names(true)));
   SinkGroup sinks(report_problem);
   for (const SinkOptions& sink : options.sinks)
     parse_with("--sink", sink.target.string(), [&](const auto&) { sinks.add(sink); });

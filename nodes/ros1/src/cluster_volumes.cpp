@@ -21,6 +21,8 @@ using namespace detail;
 ClusterVolumes::ClusterVolumes(const ros::NodeHandle& topics, const ros::NodeHandle& parameters)
     : name_(parameters.getNamespace()), topics_(topics), sender_(topics, [this] { update_subscription(); }) {
   NodeConfig config = config_of(parameters);
+  // Parameters of earlier runs stay on the parameter server. So the log tells which ones are used.
+  if (!config.parameters.empty()) ROS_INFO_STREAM(name_ << ": parameters: " << config.parameters);
   std::vector<std::string> warnings = config.pipeline.ineffective_settings();
   if (std::optional<RegionConfig> body = robot_body(config.rig, warnings))
     config.pipeline.filter.regions.push_back(*std::move(body));
@@ -106,12 +108,17 @@ void ClusterVolumes::receive(const sensor_msgs::PointCloud2ConstPtr& cloud) {
     runner_->report_unreadable(std::move(frame), reason_of(error));
     return;
   }
+  frame.header.stamp_ns = stamps_.next(frame.header.stamp_ns, frame.recorded_ns);
+  for (const std::string& line : stamps_.take_warnings())
+    ROS_WARN_STREAM(name_ << ": " << line);
   runner_->push(std::move(frame));
 }
 
 // Publishes shared pointers, so that nodelets in the same manager receive the messages without a copy.
 void ClusterVolumes::publish(const Frame& frame, const FrameResult& result) {
   if (!frame.note.empty()) ROS_WARN_STREAM_THROTTLE(60, message_line(name_ + ": " + frame.note));
+  for (const std::string& warning : result.warnings)
+    ROS_WARN_STREAM(message_line(name_ + ": " + warning));
   if (labels_.getNumSubscribers() > 0) {
     const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>();
     fill_points(frame, result, *cloud);

@@ -20,6 +20,7 @@
 #include "pcl_bv/nodes/topics.h"
 #include "rig_reader.h"
 #include "ros1_sender.h"
+#include "stream/sources/message_stamps.h"
 #include "stream/topics/message_adapter.h"
 
 namespace pcl_bv {
@@ -61,6 +62,7 @@ class ClusterVolumes {
   ros::Subscriber points_;
   Ros1Sender sender_;
   std::vector<std::unique_ptr<MessageAdapter>> adapters_;
+  MessageStamps stamps_;
   ShownObjects shown_;
   MarkerLifetime lifetime_;
   StreamHealth health_;

@@ -38,8 +38,7 @@ template <class Cloud>
 void read_parsed(const Cloud& cloud, const std::shared_ptr<const void>& owner, const std::string& class_field,
                  Frame& frame) {
   frame.header.frame_id = cloud.header.frame_id;
-  if (const std::int64_t stamp = msg::nanoseconds_of(cloud.header.stamp); stamp != 0)
-    frame.header.stamp_ns = stamp;
+  frame.header.stamp_ns = msg::nanoseconds_of(cloud.header.stamp);
   const std::optional<PointView> in_place = view_points(cloud);
   if (in_place) {
     frame.points = *in_place;

@@ -3,11 +3,14 @@
 
 #include "message_source.h"
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "cloud_message.h"
+#include "message_stamps.h"
 #include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/nodes/topics.h"
 #include "sources.h"
@@ -43,6 +46,7 @@ class MessageSource final : public FrameSource {
     } catch (const std::exception& error) {
       throw FrameError(std::move(frame), reason_of(error));
     }
+    frame.header.stamp_ns = stamps_.next(frame.header.stamp_ns, message.sent_ns);
     if (!frame_id_.empty()) frame.header.frame_id = frame_id_;
     frame.pose = poses_.at(0, frame.header.stamp_ns);
     frame.decode_ms =
@@ -50,12 +54,17 @@ class MessageSource final : public FrameSource {
     return Next::frame;
   }
 
-  std::vector<std::string> take_warnings() override { return receiver_->take_warnings(); }
+  std::vector<std::string> take_warnings() override {
+    std::vector<std::string> all = receiver_->take_warnings();
+    std::ranges::move(stamps_.take_warnings(), std::back_inserter(all));
+    return all;
+  }
 
  private:
   std::unique_ptr<MessageReceiver> receiver_;
   std::string name_, class_field_, frame_id_;
   Poses poses_;
+  MessageStamps stamps_;
   std::uint64_t seq_ = 0;
 };
 

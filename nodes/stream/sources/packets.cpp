@@ -3,8 +3,6 @@
 
 // A source of frames from sensors' packets, one frame for each revolution.
 
-#include <cmath>
-
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/recording/packet_reader.h"
 #include "recorded_clouds.h"
@@ -32,12 +30,12 @@ class Packets final : public FrameSource {
     frame = Frame();
     frame.file = name_;
     frame.header.seq = seq_;
-    frame.header.stamp_ns = options_.own_stamps
-                                ? sweep->stamp_ns
-                                : std::llround(1e9 * static_cast<double>(seq_) / options_.rate_hz);
+    frame.pass = loop_;
+    frame.header.stamp_ns = options_.own_stamps ? sweep->stamp_ns : stamp_by_rate(options_, seq_);
     frame.recorded_ns = sweep->stamp_ns;  // the time of the machine that captured the packets
     frame.header.frame_id = options_.frame_id.empty() ? std::string(sweep->frame_id) : options_.frame_id;
-    frame.pose = poses_.at(index_++, frame.header.stamp_ns);
+    frame.pose = poses_.at(index_, options_.own_stamps ? sweep->stamp_ns : stamp_by_rate(options_, index_));
+    ++index_;
     ++seq_;
     if (!sweep->points.empty()) {
       const SensorPoint& first = sweep->points.front();

@@ -3,9 +3,11 @@
 
 // A source of the clouds in a recording.
 
-#include <cmath>
+#include <algorithm>
+#include <iterator>
 
 #include "cloud_message.h"
+#include "message_stamps.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/nodes/topics.h"
@@ -44,6 +46,7 @@ class Recorded final : public FrameSource {
     frame = Frame();
     frame.file = name_;
     frame.header.seq = seq_++;
+    frame.pass = loop_;
     frame.header.stamp_ns = frame.recorded_ns = message.log_time_ns;
     const std::size_t index = index_++;
     try {
@@ -51,14 +54,17 @@ class Recorded final : public FrameSource {
     } catch (const std::exception& error) {
       throw FrameError(std::move(frame), reason_of(error));
     }
-    frame.pose = poses_.at(index, frame.header.stamp_ns);
+    frame.pose =
+        poses_.at(index, options_.own_stamps ? frame.header.stamp_ns : stamp_by_rate(options_, index));
     frame.decode_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     return Next::frame;
   }
 
   std::vector<std::string> take_warnings() override {
-    return take_new(reader_->warning_lines(), warnings_taken_);
+    std::vector<std::string> all = take_new(reader_->warning_lines(), warnings_taken_);
+    std::ranges::move(stamps_.take_warnings(), std::back_inserter(all));
+    return all;
   }
 
  private:
@@ -73,14 +79,46 @@ class Recorded final : public FrameSource {
     return messages;
   }
 
-  void read(const RecordedMessage& message, Frame& frame) {
+  // Returns whether the first two clouds, or the only one, have the stamp 0: their driver wrote no stamps.
+  // One of several is no proof, because a recording or a simulation may begin at 0. Reads the file anew, so
+  // that the messages that follow are not lost.
+  bool begins_without_stamps() const {
+    const std::unique_ptr<RecordingReader> reader = open_checked(name_);
+    reader->select({topic_});
+    RecordedMessage message;
+    for (int i = 0; i < 2 && reader->next(message); ++i)
+      if (stamp_of(message) != 0) return false;
+    return true;
+  }
+
+  // Returns the stamp in a message; 0 if the message cannot be read.
+  std::int64_t stamp_of(const RecordedMessage& message) const {
+    Frame frame;
+    try {
+      parse(message, frame);
+    } catch (const std::exception&) {
+      return 0;
+    }
+    return frame.header.stamp_ns;
+  }
+
+  void parse(const RecordedMessage& message, Frame& frame) const {
     const auto bytes = std::make_shared<std::vector<std::byte>>(message.data, message.data + message.size);
     const RecordedTopic& topic = reader_->topics()[topic_];
     read_cloud_message(
         {bytes->data(), bytes->size(), bytes, topic.encoding != "cdr", cloud_type_of(topic.type).value()},
         options_.class_field, frame);
-    if (!options_.own_stamps)
-      frame.header.stamp_ns = std::llround(1e9 * static_cast<double>(frame.header.seq) / options_.rate_hz);
+  }
+
+  void read(const RecordedMessage& message, Frame& frame) {
+    parse(message, frame);
+    if (!options_.own_stamps) {
+      frame.header.stamp_ns = stamp_by_rate(options_, frame.header.seq);
+    } else {
+      if (frame.header.seq == 0 && frame.header.stamp_ns == 0 && begins_without_stamps())
+        stamps_.expect_none();
+      frame.header.stamp_ns = stamps_.next(frame.header.stamp_ns, message.log_time_ns);
+    }
     if (!options_.frame_id.empty()) frame.header.frame_id = options_.frame_id;
   }
 
@@ -89,6 +127,7 @@ class Recorded final : public FrameSource {
   std::unique_ptr<RecordingReader> reader_;
   std::size_t topic_;
   Poses poses_;
+  MessageStamps stamps_;
   std::uint64_t seq_ = 0;
   std::size_t index_ = 0, loop_ = 0, warnings_taken_ = 0;
 };

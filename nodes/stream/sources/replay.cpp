@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <utility>
 
 #include "pcl_bv/io/untrusted_text.h"
@@ -55,11 +54,11 @@ class Replay : public FrameSource {
     Frame frame;
     if (!files_.empty()) frame.file = files_[index].string();
     frame.header.seq = seq_;
+    frame.pass = seq_ / length_;
     frame.header.frame_id = options_.frame_id;
-    frame.header.stamp_ns = options_.own_stamps
-                                ? times_.stamps[index]
-                                : std::llround(1e9 * static_cast<double>(seq_) / options_.rate_hz);
-    frame.pose = poses_.at(index, frame.header.stamp_ns);
+    frame.header.stamp_ns = options_.own_stamps ? times_.stamps[index] : stamp_by_rate(options_, seq_);
+    frame.pose =
+        poses_.at(index, options_.own_stamps ? times_.stamps[index] : stamp_by_rate(options_, index));
     return frame;
   }
 

@@ -4,6 +4,8 @@
 // Functions that open sources, and the poses and replays that several sources use.
 #pragma once
 
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -36,6 +38,11 @@ class Poses {
   std::vector<StampedPose> poses_;  // sorted by stamp
 };
 
+/// Returns the stamp of frame `number` at ReplayOptions::rate_hz.
+inline std::int64_t stamp_by_rate(const ReplayOptions& options, std::uint64_t number) {
+  return std::llround(1e9 * static_cast<double>(number) / options.rate_hz);
+}
+
 /// Creates a source of `length` frames, repeated options.loops times. `files` are the files of the frames, or
 /// empty. `load` puts cloud number `index` and the owner of its points into the frame, or throws an
 /// exception. `times` are the stamps if options.own_stamps is set.
@@ -64,5 +71,5 @@ bool has_recording_extension(const std::filesystem::path& file);
 /// extensions and for folders.
 void check_recording_content(const std::filesystem::path& file);
 
-}  // namespace detail
+}  // namespace gnu::visibility("default")]]detail
 }  // namespace pcl_bv

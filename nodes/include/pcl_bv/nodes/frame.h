@@ -69,11 +69,17 @@ struct Frame {
   /// Sensor position in the frame of the points, metres. Set if the source has the position, for example as
   /// VIEWPOINT of a .pcd file.
   std::optional<Eigen::Vector3d> sensor{};
+  /// Where the origin of the points' coordinates was before something moved them, for example pcd_bv's
+  /// --origin; in the frame of the points, metres. Ranges and growing tolerances are measured from here, and
+  /// the sensor is assumed here, unless `sensor` or `sensors` tell more.
+  Eigen::Vector3d recorded_origin = Eigen::Vector3d::Zero();
   /// The sensors of a merged cloud, in the order of their points. Empty for the cloud of a single sensor.
   std::vector<SensorPart> sensors{};
   /// Time of recording or sending, nanoseconds of the clock of the recording or sending machine. 0: unknown.
   /// Tracking uses this time if the stamps do not advance.
   std::int64_t recorded_ns = 0;
+  /// Number of the pass over a source that is repeated (ReplayOptions::loops). Tracks end with a pass.
+  std::uint64_t pass = 0;
 
   /// Time from which the latency of the frame is measured. A paced replay sets `taken` to the time at which
   /// the frame is due. A live source sets `taken` to the arrival of the message, or to steady_time(stamp_ns)
@@ -104,4 +110,4 @@ inline std::chrono::steady_clock::time_point steady_time(std::int64_t system_ns)
   return std::chrono::steady_clock::now() - (since_1970 - std::chrono::nanoseconds(system_ns));
 }
 
-}  // namespace pcl_bv
+}  // namespace gnu::visibility("default")]]pcl_bv

@@ -42,9 +42,11 @@ class FramePipeline {
   PipelineConfig config() const;
 
   /// Processes one frame and replaces `result`. If tracking is enabled, frames must come in the order of
-  /// their stamps. A frame without a valid point gives no clusters, or one empty cluster if cluster.tolerance
-  /// is 0 and cluster.min_size is 0 or not set. `result.counts` holds the number of dropped points by reason.
-  /// Two threads must not call process() at the same time.
+  /// their stamps. FrameResult::warnings says if they do not. If the stamp goes back by more than one second,
+  /// or Frame::pass changes, all tracks are deleted; their ids are not reused. A frame without a valid point
+  /// gives no clusters, or one empty cluster if cluster.tolerance is 0 and cluster.min_size is 0 or not set.
+  /// `result.counts` holds the number of dropped points by reason. Two threads must not call process() at the
+  /// same time.
   ///
   /// Throws std::length_error if index lists are needed for more than 2^31 - 1 points. Throws
   /// std::invalid_argument if ground removal or clustering is enabled and the points come from a PointSource.
@@ -56,6 +58,10 @@ class FramePipeline {
   /// sweep twice and then deletes all tracks, so call it before the sensor's first frame. Only the capacity
   /// of `result` is meaningful afterwards.
   void reserve(std::size_t points, FrameResult& result);
+
+  /// Replaces the object that fills FrameResult::warnings, for example to name settings by options of a
+  /// program. Warnings that were given before are given again.
+  void set_warnings(FrameWarnings warnings);
 
   /// Private. Lets a device find the supports of the clusters, which changes no bit. Null: the processor
   /// does.
@@ -70,4 +76,4 @@ class FramePipeline {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace pcl_bv
+}  // namespace gnu::visibility("default")]]pcl_bv

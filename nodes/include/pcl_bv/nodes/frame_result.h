@@ -62,7 +62,10 @@ enum class TrackTime : std::uint8_t {
   /// Frame::recorded_ns, if that advanced.
   stamps,
   recorded,  ///< The stamp did not advance. Frame::recorded_ns gives the step.
-  none  ///< Neither the stamp nor Frame::recorded_ns advanced. Tracks are expected at their last positions.
+  none,  ///< Neither the stamp nor Frame::recorded_ns advanced. Tracks are expected at their last positions.
+  gap,   ///< The step is longer than one second. Tracks are expected at their last positions.
+  /// The stamp went back by more than one second: the source has begun again. All tracks were deleted.
+  restarted
 };
 
 /// The unit of the times of points.
@@ -123,15 +126,16 @@ struct FrameResult {
   std::vector<std::int32_t> passed_filter;
   GroundSplit ground;  ///< Ground and other points. `found` is false without ground removal.
   /// Sensor position, which is the centre of the ground zones. The first case that applies decides:
-  /// 1. the origin, if no enabled setting depends on the position or the points are not in memory;
+  /// 1. Frame::recorded_origin, if no enabled setting depends on the position or the points are not in
+  /// memory;
   /// 2. ground.sensor, if given;
   /// 3. Frame::sensor, if the points lie around it;
-  /// 4. the origin, if the points lie around it;
+  /// 4. Frame::recorded_origin, if the points lie around it;
   /// 5. the densest part of the cloud (find_sensor()).
   SensorPosition sensor;
-  /// Whether the points lie around the origin, from which filter.range_max and cluster.tolerance_per_metre
-  /// are measured. Always true if neither setting is used and the ground method is not zones. Also always
-  /// true for points that are not in memory.
+  /// Whether the points lie around Frame::recorded_origin, from which filter.range_max and
+  /// cluster.tolerance_per_metre are measured. Always true if neither setting is used and the ground method
+  /// is not zones. Also always true for points that are not in memory.
   bool around_origin = true;
   /// The points that all later stages used, if they were moved to the stamp. The filter comes before.
   DeskewResult deskew;
@@ -159,6 +163,9 @@ struct FrameResult {
   /// For each volume: the result of its fit. A failed fit leaves the volume empty.
   std::vector<EstimationResult> results;
   StageTimes ms;
+  /// Warnings about this frame (FrameWarnings), one line each. Each kind of warning is in the result of one
+  /// frame only, until the configuration changes. Usually empty.
+  std::vector<std::string> warnings;
 
   /// Returns the track of a cluster, or null if tracking is off or the cluster has no confirmed track.
   const TrackEntry* track_of(std::size_t cluster) const {
@@ -236,7 +243,7 @@ detail::Picture picture_of(const Frame& frame, const FrameResult& result,
 /// - a cloud that does not surround its sensor or is upside down;
 /// - many points far away;
 /// - a sensor height that fits no plane;
-/// - stamps of tracked frames that do not advance;
+/// - stamps of tracked frames that do not advance, go back, or advance by more than one second;
 /// - points that could not be moved to the stamp (deskew_warning()).
 class FrameWarnings {
  public:
@@ -258,4 +265,4 @@ class FrameWarnings {
   bool searched_ = false;       // whether little ground has led to a search for another up direction
 };
 
-}  // namespace
+}  // namespace gnu::visibility("default")]]pcl_bv

@@ -70,10 +70,14 @@ struct ReplayOptions {
   /// FrameError. In some folders, the fractions of seconds are whole numbers of milli-, micro- or nanoseconds
   /// without leading zeros. With milliseconds, 12.5 then means 12.005 s.
   ///
-  /// For messages, the stamp is that of the header or, if the header's stamp is 0, the time of recording.
+  /// For messages, the stamp is that of the header, which may be 0. If two headers in a row have the stamp 0,
+  /// or the only one of a recording, their driver writes no stamps. Then the stamp is the time of sending or
+  /// recording, and take_warnings() returns a warning.
   bool own_stamps = false;
   std::size_t bin_fields = 0;  ///< Floats per point of .bin files, as in read_cloud().
-  std::size_t loops = 1;       ///< Number of passes over all frames; 0 is treated as 1.
+  /// Number of passes over all frames; 0 is treated as 1. Frame::pass has the number of the pass. With own
+  /// stamps, each pass has the same stamps.
+  std::size_t loops = 1;
   /// Integer field of the clouds for Frame::classes. If empty, frames have no classes.
   std::string class_field{};
   std::string frame_id{};  ///< Frame id of all frames. If empty: the frame ids of the source.
@@ -215,4 +219,4 @@ std::unique_ptr<FrameSource> make_source(std::function<bool(Frame&)> next);
 /// of a whole folder are read.
 std::int64_t stamp_in_name(std::string_view stem);
 
-}  // namespace pcl_bv
+}  // namespace gnu::visibility("default")]]pcl_bv

@@ -48,7 +48,7 @@ msg::PointCloud2 cloud_in(const CloudMessage& message);
 
 /// Turns a cloud into a frame.
 ///
-/// Sets points, intensity, times, owner and frame_id. Sets the stamp, unless the stamp of the message is 0.
+/// Sets points, intensity, times, owner, frame_id and the stamp, which may be 0.
 /// Sets `note` to the names of fields that cannot be read (skipped_fields_note()). Points are not copied if
 /// they can be read in place (view_points()). If `class_field` is not empty, Frame::classes gets the values
 /// of that integer field. Throws MessageError if the message is not of CloudMessage::type, and
@@ -389,4 +389,4 @@ class StreamHealth {
   double slowest_ms_ = 0;
 };
 
-}  // namespace
+}  // namespace gnu::visibility("default")]]pcl_bv
