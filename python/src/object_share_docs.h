@@ -20,7 +20,8 @@ inputs: a path, or a list of paths: files, folders, recordings and 'synth:...', 
 cluster: the tolerance, in the points' unit, or a dict of settings: {'tolerance': 0.5, 'min_size': 30}.
 share: (k, n): the share k of n, k from 0.
 volumes: a method or a list of methods. None: ['obb-lshape'].
-origin: three numbers that are subtracted from all coordinates.
+origin: three numbers that are subtracted from all coordinates. Ranges are still measured from where the coordinates
+    were 0 or, if that is more than 500 m away, from the new origin.
 memory: for points while they are clustered, megabytes.
 bin_fields: as for read().
 settings: other settings of Pipeline(), such as filter={'range_min': 1} and threads=0. Without them no point is
