@@ -96,7 +96,8 @@ std::int64_t time_passed(std::int64_t from, std::int64_t to) {
 std::int64_t TrackClock::at(std::int64_t stamp_ns, std::int64_t recorded_ns) {
   const std::int64_t by_stamps = time_passed(stamp_ns_, stamp_ns);
   const std::int64_t by_records = recorded_ns_ != 0 ? time_passed(recorded_ns_, recorded_ns) : 0;
-  const bool uses_records = by_records > 0 && (by_stamps == 0 || distrusts_stamp_);
+  const bool first_without_stamp = stamp_ns_ == 0 && by_stamps > kLongestKnownStep;  // see MessageStamps
+  const bool uses_records = by_records > 0 && (by_stamps == 0 || distrusts_stamp_ || first_without_stamp);
   distrusts_stamp_ = false;
   if (!started_) {
     now_ns_ = std::min(stamp_ns, INT64_MAX / 2);

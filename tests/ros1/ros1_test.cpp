@@ -176,7 +176,7 @@ TEST_F(Ros1, AStampOfZeroIsAStampAndWithoutStampsALineSaysSo) {
   ASSERT_TRUE(lidar.heard()) << running->errors();
   for (std::size_t i = 1; i <= 2; ++i) {
     sensor_msgs::PointCloud2 cloud = cube();
-    cloud.header.stamp = ros::Time();
+    cloud.header.stamp = ::ros::Time();
     lidar.send(cloud);
     ASSERT_TRUE(wait_for([&] { return labels.size() == i; }));
     EXPECT_EQ(labels.all().back()->header.stamp.isZero(), i == 1);
