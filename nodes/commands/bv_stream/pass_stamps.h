@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 
 #include "pcl_bv/nodes/frame.h"
 
@@ -24,30 +23,28 @@ class PassStamps {
     std::int64_t moved = 0;
     if (__builtin_add_overflow(stamp, shift_, &moved)) moved = stamp;
     frame.header.stamp_ns = moved;
-    first_ = std::min(first_.value_or(moved), moved);
-    last_ = std::max(last_.value_or(moved), moved);
+    first_ = count_ > 0 ? std::min(first_, moved) : moved;
+    last_ = count_ > 0 ? std::max(last_, moved) : moved;
     ++count_;
   }
 
  private:
   void begin_pass(std::uint64_t pass, std::int64_t stamp) {
     std::int64_t span = 0, shift = 0;
-    if (first_ && stamp <= *last_ && !__builtin_sub_overflow(*last_, *first_, &span) &&
-        !__builtin_sub_overflow(*last_, stamp, &shift)) {
+    if (count_ > 0 && stamp <= last_ && !__builtin_sub_overflow(last_, first_, &span) &&
+        !__builtin_sub_overflow(last_, stamp, &shift)) {
       const std::int64_t step = count_ > 1 ? std::max<std::int64_t>(span / (count_ - 1), 1) : kStep;
       if (!__builtin_add_overflow(shift, step, &shift)) shift_ = shift;
     }
     pass_ = pass;
-    first_.reset();
-    last_.reset();
     count_ = 0;
   }
 
   static constexpr std::int64_t kStep = 100'000'000;  // after a pass of a single frame, nanoseconds
 
   std::uint64_t pass_ = 0;
-  std::int64_t shift_ = 0, count_ = 0;
-  std::optional<std::int64_t> first_, last_;  // smallest and largest moved stamp of this pass
+  std::int64_t shift_ = 0, count_ = 0;  // count_: stamps of this pass so far
+  std::int64_t first_ = 0, last_ = 0;   // smallest and largest moved stamp of this pass
 };
 
 }  // namespace pcl_bv::detail
