@@ -38,5 +38,5 @@ class ClassTable {
   std::vector<std::vector<const Method*>> class_methods_;  // in the order of `class_options_`
 };
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace detail
 }  // namespace pcl_bv

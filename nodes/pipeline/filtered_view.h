@@ -29,5 +29,5 @@ struct FilteredView {
 FilteredView filter_points(const PointView& points, const FilterConfig& config, const Execution& execution,
                            const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace detail
 }  // namespace pcl_bv

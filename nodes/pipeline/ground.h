@@ -26,5 +26,5 @@ void split_ground(const PointView& points, const GroundConfig& config, const Sen
                   const Eigen::Vector3d& origin, const Execution& execution, GroundZones& zones,
                   GroundSplit& split);
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace detail
 }  // namespace pcl_bv

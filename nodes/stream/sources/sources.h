@@ -71,5 +71,5 @@ bool has_recording_extension(const std::filesystem::path& file);
 /// extensions and for folders.
 void check_recording_content(const std::filesystem::path& file);
 
-}  // namespace gnu::visibility("default")]]detail
+}  // namespace detail
 }  // namespace pcl_bv

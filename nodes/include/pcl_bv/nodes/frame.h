@@ -110,4 +110,4 @@ inline std::chrono::steady_clock::time_point steady_time(std::int64_t system_ns)
   return std::chrono::steady_clock::now() - (since_1970 - std::chrono::nanoseconds(system_ns));
 }
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

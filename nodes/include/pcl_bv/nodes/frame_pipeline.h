@@ -76,4 +76,4 @@ class FramePipeline {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

@@ -265,4 +265,4 @@ class FrameWarnings {
   bool searched_ = false;       // whether little ground has led to a search for another up direction
 };
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace

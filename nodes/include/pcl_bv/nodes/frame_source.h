@@ -219,4 +219,4 @@ std::unique_ptr<FrameSource> make_source(std::function<bool(Frame&)> next);
 /// of a whole folder are read.
 std::int64_t stamp_in_name(std::string_view stem);
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

@@ -389,4 +389,4 @@ class StreamHealth {
   double slowest_ms_ = 0;
 };
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace

@@ -141,4 +141,4 @@ class EuclideanClusterer {
 /// saves allocations with an EuclideanClusterer of its own.
 Clusters cluster(const PointView& points, const ClusterOptions& options, const Execution& execution = {});
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv

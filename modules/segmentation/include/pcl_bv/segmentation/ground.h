@@ -270,4 +270,4 @@ struct OtherUp {
 std::optional<OtherUp> find_other_up(const PointView& points, const GroundPlaneOptions& options,
                                      const Eigen::Vector3d& sensor, double found);
 
-}  // namespace gnu::visibility("default")]]pcl_bv
+}  // namespace pcl_bv
