@@ -4,12 +4,12 @@
 // Whole or not there, with the mode and the neighbours as they were.
 #include "pcl_bv/io/atomic_file.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
-#include <csignal>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -17,7 +17,9 @@
 #include <vector>
 
 #include "devices.h"
+#include "file_size_limit.h"
 #include "files.h"
+#include "pcl_bv/io/posix_file.h"
 #include "pcl_bv/io/raw_cloud.h"
 
 namespace {
@@ -55,26 +57,6 @@ class AtomicFile : public FileTest {
   static unsigned mode(const fs::path& path) { return static_cast<unsigned>(fs::status(path).permissions()); }
 };
 
-// While it lives, no file of this process grows beyond `bytes`: writing more fails as on a full disk.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    ::getrlimit(RLIMIT_FSIZE, &old_);
-    const rlimit limit{bytes, old_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &old_);
-    std::signal(SIGXFSZ, old_handler_);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
- private:
-  rlimit old_{};
-  void (*old_handler_)(int);
-};
-
 TEST_F(AtomicFile, WritesTheContent) {
   write_file_atomically(file("a"), std::string_view("one\0two", 7));
   EXPECT_EQ(file_content(file("a")), std::string("one\0two", 7));
@@ -104,7 +86,7 @@ TEST_F(AtomicFile, LeavesTheOldFileWhenTheDiskIsFull) {
   const std::string content(100000, 'n');
   std::string why;
   {
-    const FileSizeLimit limit(50000);
+    const test::FileSizeLimit limit(50000);
     why = reason(file("a"), content);
   }
   EXPECT_EQ(why, "cannot write: file too large");
@@ -114,7 +96,7 @@ TEST_F(AtomicFile, LeavesTheOldFileWhenTheDiskIsFull) {
 
 TEST_F(AtomicFile, LeavesNothingWhenTheDiskIsFull) {
   {
-    const FileSizeLimit limit(50000);
+    const test::FileSizeLimit limit(50000);
     EXPECT_THROW(write_file_atomically(file("a"), std::string(100000, 'n')), IoError);
   }
   EXPECT_EQ(entries(), 0);
@@ -293,6 +275,63 @@ TEST_F(AtomicFile, ALinkStaysALinkAndItsTargetIsWritten) {
   write_file_atomically(file("link"), "new");
   EXPECT_TRUE(fs::is_symlink(file("link")));
   EXPECT_EQ(file_content(file("target")), "new");
+}
+
+TEST_F(AtomicFile, ALinkToAMissingFileCreatesThatFileInItsOwnFolder) {
+  fs::create_directories(file("far"));
+  fs::create_symlink("far/second", file("first"));
+  fs::create_symlink("target", file("far/second"));
+  replace_file_atomically(file("first"), [&](const fs::path& path) {
+    EXPECT_EQ(path.parent_path(), file("far"));
+    write_text(path, "new");
+  });
+  EXPECT_EQ(fs::read_symlink(file("first")), "far/second");
+  EXPECT_EQ(fs::read_symlink(file("far/second")), "target");
+  EXPECT_EQ(file_content(file("far/target")), "new");
+  fs::create_symlink(file("gone") / "target", file("lost"));
+  EXPECT_EQ(reason(file("lost"), "new"), "cannot write: no such file or directory");
+  EXPECT_TRUE(fs::is_symlink(file("lost")));
+}
+
+TEST_F(AtomicFile, LinksInACircleAreAnError) {
+  fs::create_symlink("b", file("a"));
+  fs::create_symlink("a", file("b"));
+  EXPECT_EQ(reason(file("a"), "new"), "cannot write: too many levels of symbolic links");
+  EXPECT_EQ(entries(), 2);
+}
+
+TEST_F(AtomicFile, ALinkToAFolderIsNoFile) {
+  fs::create_directories(file("folder"));
+  fs::create_directory_symlink("folder", file("link"));
+  EXPECT_EQ(reason(file("link"), "new"), "cannot write: is a directory");
+  EXPECT_TRUE(fs::is_symlink(file("link")));
+  write_file_atomically(file("link") / "a", "through");
+  EXPECT_EQ(file_content(file("folder/a")), "through");
+}
+
+TEST_F(AtomicFile, ALinkToAnOpenFileWritesToThisFileAndReplacesNothing) {
+  write_text(file("open"), "old");
+  const FileDescriptor open(file("open"), O_WRONLY, 0, "");
+  fs::create_symlink("/dev/fd/" + std::to_string(open.get()), file("link"));
+  const fs::path renamed = file("renamed");
+  fs::rename(file("open"), renamed);
+  write_file_atomically(file("link"), "new");
+  EXPECT_EQ(file_content(renamed), "new");
+  EXPECT_FALSE(fs::exists(file("open")));
+  EXPECT_EQ(entries(), 2);
+}
+
+TEST_F(AtomicFile, AnOldFileKeepsItsOwner) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can give files away";
+  write_text(file("a"), "old");
+  ASSERT_EQ(::chown(file("a").c_str(), 1234, 2345), 0);
+  fs::permissions(file("a"), static_cast<fs::perms>(0660));
+  write_file_atomically(file("a"), "new");
+  struct stat status;
+  ASSERT_EQ(::stat(file("a").c_str(), &status), 0);
+  EXPECT_EQ(status.st_uid, 1234U);
+  EXPECT_EQ(status.st_gid, 2345U);
+  EXPECT_EQ(mode(file("a")), 0660U);
 }
 
 TEST_F(AtomicFile, ADeviceIsWrittenAndStaysADevice) {

@@ -5,7 +5,9 @@
 #include "pcl_bv/io/atomic_file.h"
 
 #include <fcntl.h>
+#include <linux/magic.h>
 #include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -108,30 +110,41 @@ class TemporaryName {
   fs::path path_;
 };
 
-// The target of /dev/stdout must not be replaced by rename(), although it may be a regular file.
-bool is_written_directly(const fs::path& path) {
-  if (path.native().starts_with("/dev/") || path.native().starts_with("/proc/")) return true;
-  struct stat old;
-  return ::stat(path.c_str(), &old) == 0 && !S_ISREG(old.st_mode);
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-// Replaces a regular file, or the target of a link. `write` gets the temporary file, open, and its path.
-template <class Write>
-void replace(const fs::path& link_or_file, const Write& write) {
+bool is_in_proc(const fs::path& path) {
+  struct statfs system;
+  return ::statfs(folder_of(path).c_str(), &system) == 0 && system.f_type == PROC_SUPER_MAGIC;
+}
+
+// The target of /dev/stdout must not be replaced by rename(), although it may be a regular file.
+bool is_written_directly(const fs::path& path) {
   struct stat old;
-  const bool exists = ::stat(link_or_file.c_str(), &old) == 0;
-  std::error_code unresolved;
-  const fs::path resolved = fs::weakly_canonical(link_or_file, unresolved);
-  const fs::path path = exists && !unresolved ? resolved : link_or_file;
+  return is_in_proc(path) || (::stat(path.c_str(), &old) == 0 && !S_ISREG(old.st_mode));
+}
+
+// Gives a new file the mode of the old one, and its owner and group if this process may set them.
+void copy_permissions(const FileDescriptor& file, const struct stat& old) {
+  constexpr auto same_owner = static_cast<uid_t>(-1);
+  [[maybe_unused]] const bool copied =
+      ::fchown(file.get(), old.st_uid, old.st_gid) == 0 || ::fchown(file.get(), same_owner, old.st_gid) == 0;
+  require(::fchmod(file.get(), old.st_mode & 0777) == 0);
+}
+
+// Replaces or creates a regular file. `write` gets the temporary file, open, and its path.
+template <class Write>
+void replace(const fs::path& path, const Write& write) {
+  struct stat old;
+  const bool exists = ::stat(path.c_str(), &old) == 0;
   if (exists) require(::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0);
-  const fs::path folder = path.parent_path();
   // Open the folder first, because the old file must not be replaced if the folder cannot be opened for its
   // fsync.
-  const FileDescriptor folder_descriptor(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY, 0,
-                                         cannot_write);
-  const TemporaryName name(folder / temporary_name());
+  const FileDescriptor folder_descriptor(folder_of(path), O_RDONLY | O_DIRECTORY, 0, cannot_write);
+  const TemporaryName name(path.parent_path() / temporary_name());
   FileDescriptor file = name.create();
-  if (exists) require(::fchmod(file.get(), old.st_mode & 0777) == 0);
+  if (exists) copy_permissions(file, old);
   write(file, name.path());
   sync_to_disk(file);
   require(file.close());
@@ -156,7 +169,9 @@ void write_file_atomically(const fs::path& path, const Pieces& pieces) {
   });
 }
 
-void write_file_atomically(const fs::path& path, const std::function<void(const FileSink& sink)>& write) {
+void write_file_atomically(const fs::path& link_or_file,
+                           const std::function<void(const FileSink& sink)>& write) {
+  const fs::path path = follow_links(link_or_file);
   const auto write_to = [&](const FileDescriptor& file) {
     write([&file](std::string_view piece) { write_all(file, piece); });
   };
@@ -167,9 +182,20 @@ void write_file_atomically(const fs::path& path, const std::function<void(const 
   require(direct.close());
 }
 
-void replace_file_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+void replace_file_atomically(const fs::path& link_or_file,
+                             const std::function<void(const fs::path&)>& write) {
+  const fs::path path = follow_links(link_or_file);
   if (is_written_directly(path)) return write(path);
   replace(path, [&](const FileDescriptor&, const fs::path& temporary) { write(temporary); });
+}
+
+fs::path follow_links(fs::path path) {
+  std::error_code unknown;
+  for (int links = 0; fs::is_symlink(fs::symlink_status(path, unknown)) && !is_in_proc(path); ++links) {
+    if (links == 40) throw IoError(cannot_write + system_reason(ELOOP));
+    path = path.parent_path() / fs::read_symlink(path, unknown);
+  }
+  return path;
 }
 
 void create_folder(const fs::path& folder) {

@@ -17,12 +17,12 @@ namespace [[gnu::visibility("default")]] detail {
 /// it to `path`. At every moment, also after an error, `path` is either unchanged (possibly missing) or has
 /// the whole new content.
 ///
-/// A new file gets mode 0644 without the bits of the umask. An existing file keeps its mode. If this process
-/// may not write the existing file, the file stays unchanged and IoError is thrown. If `path` is a symbolic
-/// link, the link stays and its target is replaced. A dangling link is itself replaced by the new file.
-/// Anything other than a regular file, such as a device or a pipe, is opened and written directly, not
-/// atomically. The same holds for every path in /dev or /proc, such as /dev/stdout, even if the path leads to
-/// a regular file.
+/// A new file gets mode 0644 without the bits of the umask. An existing file keeps its mode, and its owner
+/// and group if this process may set them. If this process may not write the existing file, the file stays
+/// unchanged and IoError is thrown. If `path` is a symbolic link, the link stays, and its target is replaced
+/// or created in the target's folder. Anything other than a regular file, such as a device or a pipe, is
+/// opened and written directly, not atomically. The same holds for every path that leads into /proc, such as
+/// /dev/stdout, even if it leads to a regular file.
 ///
 /// Returns when the file and its name are on the disk (fsync of the file and of the folder, some
 /// milliseconds). Throws IoError with the reason, also for errors that the disk reports at fsync. If only the
@@ -47,6 +47,11 @@ void write_file_atomically(const std::filesystem::path& path,
 /// exists and does not replace it. An exception of `write` is rethrown after the temporary file is removed.
 void replace_file_atomically(const std::filesystem::path& path,
                              const std::function<void(const std::filesystem::path&)>& write);
+
+/// Returns the path to which a path leads by symbolic links in its last component: no link, but possibly
+/// missing. A link in /proc, such as the target of /dev/stdout, stays: it leads to an open file, whatever its
+/// text. Throws IoError if more than 40 links follow each other.
+std::filesystem::path follow_links(std::filesystem::path path);
 
 /// Creates a folder and its missing parents. An existing folder stays. Throws IoError with the reason,
 /// without the path.

@@ -30,6 +30,8 @@ class FileDescriptor {
  public:
   /// Opens the file as open(2) does, with O_CLOEXEC. Throws IoError with `context` and the system's reason.
   FileDescriptor(const std::filesystem::path& path, int flags, unsigned mode, const std::string& context);
+  /// Takes an open descriptor.
+  explicit FileDescriptor(int descriptor) : fd_(descriptor) {}
   ~FileDescriptor() { close(); }
   FileDescriptor(FileDescriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
   FileDescriptor& operator=(FileDescriptor&&) = delete;
