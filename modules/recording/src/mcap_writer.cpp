@@ -3,10 +3,7 @@
 
 #include "pcl_bv/recording/mcap_writer.h"
 
-#include <fcntl.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -14,7 +11,8 @@
 #include "codecs.h"
 #include "mcap_records.h"
 #include "pcl_bv/io/crc32.h"
-#include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/io/growing_file.h"
+#include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv::detail {
 
@@ -40,18 +38,13 @@ std::uint64_t time_of(std::int64_t nanoseconds) {
 
 class McapWriter::State {
  public:
-  State(const std::filesystem::path& file, const Options& options)
-      : file_(open_or_create(file, created_path_)), options_(options) {
+  State(const std::filesystem::path& file, const Options& options) : file_(file), options_(options) {
     Writer writer(start_);
     writer.bytes(mcap::kMagic.data(), mcap::kMagic.size());
     writer.begin(Op::header);
     writer.text("ros2");
     writer.text("pcl_bv");
     writer.end();
-  }
-  // Removes a file that this object created and that has no content.
-  ~State() {
-    if (!start_.empty() && !created_path_.empty()) ::unlink(created_path_.c_str());
   }
   State(const State&) = delete;
   State& operator=(const State&) = delete;
@@ -125,46 +118,21 @@ class McapWriter::State {
     writer.end();
     append(end);
     write_summary();
-    if (!file_.close()) throw IoError(system_reason(errno));
+    if (const int error = file_.close()) throw IoError(system_reason(error));
   }
 
  private:
-  // Opens the file for writing. If the file does not exist, creates it and sets `created_path`.
-  static FileDescriptor open_or_create(const std::filesystem::path& file,
-                                       std::filesystem::path& created_path) {
-    constexpr int flags = O_WRONLY | O_CREAT;
-    try {
-      FileDescriptor fresh(file, flags | O_EXCL, 0666, "");
-      created_path = file;
-      return fresh;
-    } catch (const IoError&) {  // the file exists
-      return FileDescriptor(file, flags, 0666, "");
-    }
-  }
-
-  // Truncates the file and writes the header and the first topics. Truncating a pipe fails with EINVAL, which
-  // is ignored.
+  // Writes the header and the first topics.
   void begin() {
     if (has_begun()) return;
-    if (::ftruncate(file_.get(), 0) != 0 && errno != EINVAL) throw IoError(system_reason(errno));
     append(start_);
     start_.clear();
   }
 
-  // Appends all bytes. If writing fails, removes the part that was written, so that later records, such as
-  // the summary, stay readable.
+  // Appends all bytes or none, so that later records, such as the summary, stay readable.
   void append(const Buffer& bytes) {
-    for (std::size_t done = 0; done < bytes.size();) {
-      const ssize_t wrote = ::write(file_.get(), bytes.data() + done, bytes.size() - done);
-      if (wrote < 0 && errno == EINTR) continue;
-      if (wrote < 0) {
-        const int error = errno;
-        const auto end = static_cast<off_t>(at_);
-        if (::ftruncate(file_.get(), end) == 0) ::lseek(file_.get(), end, SEEK_SET);
-        throw IoError(system_reason(error));
-      }
-      done += static_cast<std::size_t>(wrote);
-    }
+    if (const int error = file_.append({reinterpret_cast<const char*>(bytes.data()), bytes.size()}))
+      throw IoError(system_reason(error));
     at_ += bytes.size();
   }
 
@@ -260,8 +228,7 @@ class McapWriter::State {
     writer.bytes(mcap::kMagic.data(), mcap::kMagic.size());
   }
 
-  std::filesystem::path created_path_;  // path of the file if this object created it
-  FileDescriptor file_;
+  GrowingFile file_;
   Options options_;
   Buffer start_;  // header and first topics, until they are written
   std::uint64_t at_ = 0;

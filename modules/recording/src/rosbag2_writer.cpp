@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "pcl_bv/io/atomic_file.h"
-#include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/io/growing_file.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "sqlite_error.h"
 
@@ -63,6 +63,7 @@ class Rosbag2Writer::State {
   explicit State(const fs::path& folder) : folder_(folder), file_(name_of(folder) + "_0.db3") {
     create_folder(folder);
     if (::access(folder_.c_str(), W_OK | X_OK) != 0) throw IoError(system_reason(errno));
+    lock_ = lock_folder(folder_);
   }
   ~State() { release(); }
   State(const State&) = delete;
@@ -223,6 +224,7 @@ class Rosbag2Writer::State {
   }
 
   fs::path folder_;
+  std::shared_ptr<const FileDescriptor> lock_;
   std::string file_;
   bool closed_ = false;
   sqlite3* database_ = nullptr;  // null before open()

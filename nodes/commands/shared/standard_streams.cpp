@@ -6,14 +6,13 @@
 #include "standard_streams.h"
 
 #include <fcntl.h>
-#include <poll.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
 
-#include "pcl_bv/io/posix_file.h"
+#include "pcl_bv/io/growing_file.h"
 #include "pcl_bv/io/raw_cloud.h"
 
 namespace pcl_bv::detail {
@@ -31,20 +30,9 @@ void prepare_standard_streams() {
 }
 
 bool write_standard_output(std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t n = ::write(STDOUT_FILENO, text.data(), text.size());
-    if (n >= 0) {
-      text.remove_prefix(static_cast<std::size_t>(n));
-    } else if (errno == EPIPE) {
-      return false;
-    } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
-      pollfd writable{STDOUT_FILENO, POLLOUT, 0};
-      ::poll(&writable, 1, -1);
-    } else if (errno != EINTR) {
-      throw IoError(system_reason(errno));
-    }
-  }
-  return true;
+  const int error = write_whole(STDOUT_FILENO, text);
+  if (error != 0 && error != EPIPE) throw IoError(system_reason(error));
+  return error == 0;
 }
 
 }  // namespace pcl_bv::detail

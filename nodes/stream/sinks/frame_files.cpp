@@ -9,6 +9,7 @@
 
 #include "line_file.h"
 #include "pcl_bv/io/atomic_file.h"
+#include "pcl_bv/io/growing_file.h"
 #include "pcl_bv/io/read_cloud.h"
 #include "pcl_bv/report/meshes.h"
 #include "pcl_bv/report/picture.h"
@@ -35,13 +36,16 @@ class FilesSink : public FrameSink {
  public:
   using Write = void (*)(const fs::path&, const Frame&, const FrameResult&);
   FilesSink(const SinkOptions& description, Write write_file)
-      : description_(with_created_folder(description)), write_(write_file) {}
+      : description_(with_created_folder(description)),
+        lock_(lock_folder(description.target)),
+        write_(write_file) {}
   void write(const Frame& frame, const FrameResult& result) override {
     write_(description_.target / numbered("frame", frame, description_.kind->files), frame, result);
   }
 
  private:
   SinkOptions description_;
+  std::shared_ptr<const FileDescriptor> lock_;
   Write write_;
 };
 
