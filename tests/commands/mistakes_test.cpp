@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -59,6 +60,44 @@ TEST_F(Mistakes, OneFileUnderTwoSpellingsIsRefusedForTwoResults) {
   fs::current_path(before);
   EXPECT_FALSE(fs::exists(at("x.pcd")));
   EXPECT_FALSE(fs::exists(at("a")));
+}
+
+TEST_F(Mistakes, AHardLinkToAnInputIsNotWrittenInPlace) {
+  const std::string cloud = ascii("in.pcd", {"1 2 3", "4 5 6"}), before = read_file(cloud);
+  fs::create_hard_link(cloud, at("hard"));
+  for (const char* sink : {"jsonl:", "csv:", "kitti:", "mcap:"}) {
+    const Result result =
+        run({"--source", cloud, "--rate", "max", "--sink", sink + at("hard")}, {.program = "bv_stream"});
+    EXPECT_EQ(result.status, 2) << sink;
+    EXPECT_THAT(result.err, HasSubstr("is an input and would be overwritten"));
+    EXPECT_EQ(read_file(cloud), before);
+  }
+}
+
+TEST_F(Mistakes, AnOutputHasOneProgramThatWritesIt) {
+  const std::vector<std::string> sinks = {"jsonl:" + at("a"),   "csv:" + at("b"),  "mcap:" + at("c"),
+                                          "rosbag2:" + at("d"), "vtp:" + at("e"),  "image:" + at("f"),
+                                          "labels:" + at("g"),  "kitti:" + at("h")};
+  std::vector<std::string> first{"--source", "synth:street-sequence:2", "--rate", "0.001"};
+  for (const std::string& sink : sinks)
+    first.insert(first.end(), {"--sink", sink});
+  const auto others = [&](int process) {
+    while (read_file(at("a")).empty() || !fs::exists(at("g/frame000000.pcd")) || read_file(at("b")).empty())
+      ::kill(process, 0) == 0 ? void(::usleep(10'000)) : std::abort();
+    const std::string before = read_file(at("a"));
+    for (const std::string& sink : sinks) {
+      const Result second = frames_to({"jsonl:" + at("z"), sink});
+      EXPECT_EQ(second.status, 1) << sink;
+      EXPECT_EQ(second.error_lines(), 1U) << second.err;
+      EXPECT_THAT(second.err, testing::StartsWith("bv_stream: " + sink + ": locked: another program "));
+      EXPECT_FALSE(fs::exists(at("z")));
+    }
+    EXPECT_EQ(read_file(at("a")), before);
+    ::kill(process, SIGKILL);
+  };
+  run(first, {.program = "bv_stream", .meanwhile = others});
+  for (const std::string& sink : sinks)
+    EXPECT_EQ(frames_to({sink}).status, 0) << sink;
 }
 
 TEST_F(Mistakes, ADashIsNoFile) {

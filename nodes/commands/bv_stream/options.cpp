@@ -100,7 +100,8 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
       continue;
     }
     const std::string_view files = sink.kind->files;
-    claims.claim(files.empty() ? sink.target : sink.target / ("frame000000" + std::string(files)));
+    files.empty() ? claims.claim_in_place(sink.target)
+                  : claims.claim(sink.target / ("frame000000" + std::string(files)));
     if (files == ".pcd") claims.reject_input(sink.target);  // the source would read the clouds of the sink
   }
   if (options.stats) claims.claim(*options.stats);

@@ -22,6 +22,10 @@ fs::path identity(const fs::path& path) {
   return unknown ? whole.lexically_normal() : canonical;
 }
 
+[[noreturn]] void reject_overwriting(const fs::path& output) {
+  throw UsageError(output.string() + ": is an input and would be overwritten");
+}
+
 }  // namespace
 
 bool is_device(const fs::path& file) {
@@ -44,8 +48,7 @@ void OutputClaims::add_input(const fs::path& file) {
 }
 
 void OutputClaims::reject_input(const fs::path& output) const {
-  if (inputs_.count(identity(output)) > 0)
-    throw UsageError(output.string() + ": is an input and would be overwritten");
+  if (inputs_.count(identity(output)) > 0) reject_overwriting(output);
 }
 
 void OutputClaims::claim(const fs::path& output) {
@@ -55,6 +58,14 @@ void OutputClaims::claim(const fs::path& output) {
   if (!taken_.insert(file).second && !is_device(file)) {
     throw UsageError(output.string() + ": more than one result would be written to this file");
   }
+}
+
+void OutputClaims::claim_in_place(const fs::path& output) {
+  claim(output);
+  std::error_code unknown;
+  if (!fs::is_regular_file(output, unknown) || fs::hard_link_count(output, unknown) < 2) return;
+  for (const fs::path& input : inputs_)
+    if (fs::equivalent(input, output, unknown)) reject_overwriting(output);
 }
 
 void OutputClaims::claim_folder(const fs::path& folder) {

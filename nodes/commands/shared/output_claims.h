@@ -31,6 +31,10 @@ class OutputClaims {
   /// a device.
   void claim(const std::filesystem::path& output);
 
+  /// Registers an output whose file is not replaced, but written in place. Also throws UsageError if a hard
+  /// link to an input has this name.
+  void claim_in_place(const std::filesystem::path& output);
+
   /// Registers a folder for several outputs. Also throws UsageError if an input is in the folder.
   void claim_folder(const std::filesystem::path& folder);
 
