@@ -218,7 +218,7 @@ void bind_read(py::module_& module) {
           "(4, 4), pose of the sensor in a fixed frame; None if unknown.")
       .def("__repr__", repr_of_frame);
   py::class_<FramesObject>(module, "Frames", frames_class_doc)
-      .def("__iter__", [](const py::object& self) { return self; })
+      .def("__iter__", [](FramesObject& self) { return py::cast(&self); })
       .def("__next__", [](FramesObject& self) {
         std::optional<Frame> frame = self.next();
         if (!frame) throw py::stop_iteration();

@@ -13,6 +13,9 @@
 
 namespace pcl_bv::python {
 using namespace detail;
+
+namespace py = pybind11;
+
 namespace {
 
 void translate(std::exception_ptr error) {  // NOLINT(performance-unnecessary-value-param): pybind11's type
@@ -26,6 +29,22 @@ void translate(std::exception_ptr error) {  // NOLINT(performance-unnecessary-va
     PyErr_SetString(PyExc_OSError, message_line(e.what()).c_str());
   } catch (const std::invalid_argument& e) {
     PyErr_SetString(PyExc_ValueError, message_line(e.what()).c_str());
+  }
+}
+
+// An object whose __init__() was not called, such as that of Aabb.__new__(Aabb) or of a pickle without a
+// state, has no value. When it is used, pybind11 calls this function to allocate the value, and leaves it
+// uninitialised.
+void* reject_missing_value(std::size_t) {
+  throw py::type_error("the object has no value, because its __init__() was not called");
+}
+
+void reject_missing_values(const py::module_& module) {
+  for (const auto& [name, value] : module.attr("__dict__").cast<py::dict>()) {
+    if (PyType_Check(value.ptr()) == 0) continue;
+    auto* const type = reinterpret_cast<PyTypeObject*>(value.ptr());
+    if (py::detail::type_info* const known = py::detail::get_type_info(type))
+      known->operator_new = reject_missing_value;
   }
 }
 
@@ -47,8 +66,10 @@ PYBIND11_MODULE(_pcl_bv, module) {
   for (const auto bind : {bind_volumes, bind_shapes, bind_fit, bind_partial, bind_object_shares,
                           bind_segmentation, bind_result, bind_pipeline, bind_picture, bind_read})
     bind(module);
+  reject_missing_values(module);
 #if defined(PCL_BV_GPU)
   bind_gpu(module);
+  reject_missing_values(module.attr("_gpu"));
 #endif
   pybind11::list sets;
   for (const pcl_bv::Isa isa : pcl_bv::usable_isas())

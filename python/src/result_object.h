@@ -50,3 +50,16 @@ struct ClusterObject {
 };
 
 }  // namespace pcl_bv::python
+
+/// Loads a plain pointer first: for an object without a value this raises the TypeError of module.cpp, where
+/// pybind11's own caster raises a RuntimeError about holders.
+template <>
+class pybind11::detail::type_caster<std::shared_ptr<pcl_bv::python::ResultObject>>
+    : public copyable_holder_caster<pcl_bv::python::ResultObject,
+                                    std::shared_ptr<pcl_bv::python::ResultObject>> {
+ public:
+  bool load(handle source, bool convert) {
+    return make_caster<pcl_bv::python::ResultObject>().load(source, convert) &&
+           copyable_holder_caster::load(source, convert);
+  }
+};
