@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <functional>
 #include <memory>
@@ -100,16 +101,18 @@ TEST_F(GrowingFiles, HaveTheirTailAgainWhenTheDiskIsFull) {
   EXPECT_TRUE(file_content(file("a")) == "headbodymore" + tail);
 }
 
-TEST_F(GrowingFiles, AnEndThatAnotherProgramAppendedStays) {
+// As standard output is by `COMMAND >> FILE`.
+TEST_F(GrowingFiles, AnAppendedPieceIsWholeButTheEndOfAnotherProgramStays) {
   write_text(file("a"), "first\n");
-  const FileDescriptor ours(file("a"), O_WRONLY | O_APPEND, 0, "");
-  const std::string piece(60'000, 'p');
+  write_text(file("b"), std::string(60'000, 'o'));
+  const FileDescriptor appended(file("a"), O_WRONLY | O_APPEND, 0, "");
+  const FileDescriptor within(file("b"), O_WRONLY, 0, "");
+  ASSERT_EQ(::lseek(within.get(), 45'000, SEEK_SET), 45'000);
   const test::FileSizeLimit limit(50'000);
-  EXPECT_EQ(write_whole(ours.get(), piece), EFBIG);
+  EXPECT_EQ(write_whole(appended.get(), std::string(60'000, 'p')), EFBIG);
   EXPECT_EQ(file_content(file("a")), "first\n");
-  const FileDescriptor shared(file("a"), O_WRONLY, 0, "");
-  EXPECT_EQ(write_whole(shared.get(), "FIRST"), 0);  // not at the end
-  EXPECT_EQ(file_content(file("a")), "FIRST\n");
+  EXPECT_EQ(write_whole(within.get(), std::string(10'000, 'p')), EFBIG);
+  EXPECT_EQ(fs::file_size(file("b")), 60'000U);
 }
 
 TEST_F(GrowingFiles, HaveOneWriterUnderEveryName) {
