@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <random>
 
 #include "box/gauss_arcs.h"
@@ -97,6 +98,41 @@ std::vector<Eigen::Matrix3d> frames(const Solid& shape) {
     all.push_back(axes);
   }
   return all;
+}
+
+// The fourth point is so near to the fifth that squares of their distance are 0.
+Solid with_a_tiny_edge() {
+  return solid({{0, 0, 0}, {1, 0, 0}, {0, -0.5, 0}, {0, 0, 1.5}, {1, -1e-200, 0}});
+}
+
+TEST(GaussArcs, HaveUnitNormalsAlthoughTheSquaresOfAnEdgeUnderflow) {
+  const Solid shape = with_a_tiny_edge();
+  ASSERT_EQ(shape.vertices.size(), 5U);
+  const Silhouette silhouette(shape.vertices, shape.triangles);
+  SupportGraph graph(silhouette);
+  const GaussArcs arcs(silhouette, graph);
+  for (const Eigen::Vector3d& n : arcs.nodes)
+    EXPECT_NEAR(n.norm(), 1, 1e-15);
+  for (const GaussArcs::Arc& arc : arcs.arcs)
+    EXPECT_LT(static_cast<std::size_t>(arc.opposite), shape.vertices.size());
+}
+
+TEST(SupportGraph, GivesAVertexForDirectionsWithoutALength) {
+  const Solid shape = with_a_tiny_edge();
+  const Silhouette silhouette(shape.vertices, shape.triangles);
+  SupportGraph graph(silhouette);
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               tiny = std::numeric_limits<double>::denorm_min();
+  for (const Eigen::Vector3d& d : {Eigen::Vector3d(0, 0, 0),
+                                   {nan, nan, nan},
+                                   {0, nan, 0},
+                                   {1, nan, 1},
+                                   {tiny, 0, -tiny},
+                                   {0x1p-1020, 0x1p-1020, 0},
+                                   {0x1p1000, 0x1p-1000, 0x1p1000}}) {
+    const SupportGraph::LowHigh found = graph.support_vertices(d);
+    EXPECT_TRUE(found.low >= 0 && found.low < 5 && found.high >= 0 && found.high < 5) << d.transpose();
+  }
 }
 
 TEST(Silhouette, IsTheOutlineOfAllVertices) {

@@ -207,6 +207,17 @@ TEST(SmallestBox, OfSixPointsIsFoundWhereASearchFromManyFramesEndsSevenPercentAb
   EXPECT_NEAR(least_volume(points), 3.8073, 5e-5);
 }
 
+TEST(SmallestBox, OfPointsOfWhichTwoAreTooNearToSquareTheirDistanceIsThatWithoutOneOfThem) {
+  const Points apart = {{0, 0, 0}, {2, 0, 0}, {0, -1, 0}, {0, 0, 10}};
+  for (const double tiny : {-1e-150, -1e-162, -1e-200, 1e-300, -std::numeric_limits<double>::denorm_min()}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Points points = apart;
+      points.push_back(apart[1] + tiny * Vector3d::Unit(axis));
+      EXPECT_NEAR(least_volume(points), least_volume(apart), 1e-12) << tiny << " along axis " << axis;
+    }
+  }
+}
+
 TEST(SmallestBox, IsNotAboveThatOnAnyTwoPairsOfPoints) {
   std::mt19937_64 random(21);
   for (int i = 0; i < (test::kFewCases ? 35 : 140); ++i) {

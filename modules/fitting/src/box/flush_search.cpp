@@ -103,6 +103,7 @@ class FlushSearch {
   Silhouette::Projection projection_;
   BoxFrame best_;
   double limit_ = 0;
+  int divided_ = 0;  // number of ranges divided so far
 };
 
 // Sets the volume below which a box is treated as smaller than the best box. The margin is larger than the
@@ -242,9 +243,11 @@ double FlushSearch::change(const NormalRange& range, const Measured& begin, cons
 }
 
 void FlushSearch::refine(const NormalRange& range, const Measured& begin, const Measured& end, int depth) {
-  constexpr int kDeepest = 40;
+  // The limit is far above what hulls need. It only bounds the time if rounding prevents the proofs.
+  constexpr int kDeepest = 40, kMostDivided = 100'000;
   constexpr double kLeast = 1e-3;
   if (is_proven(range, begin.widths) || is_proven(range, end.widths) || depth == kDeepest) return;
+  if (++divided_ > kMostDivided) return;
   const double t = std::clamp(change(range, begin, end), kLeast, 1 - kLeast);
   const Measured middle = measure(range, t);
   refine(range.part(0, t), begin, middle, depth + 1);

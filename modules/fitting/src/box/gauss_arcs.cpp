@@ -48,9 +48,12 @@ void GaussArcs::add_nodes(const Silhouette& shape) {
   }
 }
 
+// The ends of a shorter edge than kNoLength are one point up to rounding, and squares of its length could
+// underflow. A hull with one vertex instead of the two has no such arc.
 void GaussArcs::add_arcs(const Silhouette::Edge& edge, const Silhouette& shape) {
+  constexpr double kNoLength = 0x1p-400;
   const Eigen::Vector3d along = shape.vertices()[edge.to] - shape.vertices()[edge.from];
-  if (nodes[edge.left] == nodes[edge.right]) return;
+  if (nodes[edge.left] == nodes[edge.right] || along.cwiseAbs().maxCoeff() < kNoLength) return;
   add_cut(edge.left, edge.right, along, edge.from, 0);
 }
 

@@ -55,10 +55,13 @@ SupportGraph::LowHigh SupportGraph::approximate_supports(const Eigen::Vector3d& 
   const int axis = x >= y && x >= z ? 0 : (y >= z ? 1 : 2);
   const int second = (axis + 1) % 3, third = (axis + 2) % 3;
   const double major = direction[axis];
-  if (major == 0) return {0, 0};
   const double half = 0.5 * kCells, scale = half / major;  // opposite directions share a cell
-  const int u = std::min(kCells - 1, static_cast<int>(direction[second] * scale + half));
-  const int v = std::min(kCells - 1, static_cast<int>(direction[third] * scale + half));
+  if (!std::isfinite(scale)) return {0, 0};
+  const auto number = [&](int minor) {
+    const double position = direction[minor] * scale + half;
+    return position > 0 ? static_cast<int>(std::min(position, kCells - 1.0)) : 0;
+  };
+  const int u = number(second), v = number(third);
   const int cell = (axis * kCells + u) * kCells + v;
   LowHigh& found = near_[static_cast<std::size_t>(cell)];
   if (found.low == kNone) {

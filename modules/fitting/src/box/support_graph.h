@@ -26,7 +26,8 @@ class SupportGraph {
 
   /// The faces of a cube are divided into 384 cells. Returns the vertices with the minimum and the maximum
   /// projection along the middle of the cell that contains `direction`. These vertices are computed when the
-  /// cell is first used. For a zero vector, returns vertex 0 twice.
+  /// cell is first used. For a direction whose components are all below 2^-1021, returns vertex 0 twice. For
+  /// any other direction, also one with a NaN, returns some vertices.
   LowHigh approximate_supports(const Eigen::Vector3d& direction);
 
   /// Returns the vertices with the minimum and the maximum projection along the direction, as climb() finds
@@ -50,7 +51,7 @@ class SupportGraph {
   static constexpr std::int32_t kNone = -1;
 
   const std::vector<Eigen::Vector3d>& vertices_;
-  std::vector<std::int32_t> first_, neighbours_;   // the neighbours of vertex i begin at position first_[i]
+  std::vector<std::int32_t> first_, neighbours_;  // the neighbours of vertex i begin at position first_[i]
   // The supports of each cell. Opposite cells share an entry.
   std::array<LowHigh, std::size_t{3} * kCells * kCells> near_;
 };
