@@ -112,9 +112,17 @@ void begin_with_smallest(std::vector<Triangle>& triangles) {
   std::sort(triangles.begin(), triangles.end());
 }
 
-}  // namespace
+// Returns the exponent of the power of two by which the coordinates along an axis are multiplied: 0 unless
+// all of them are tiny.
+int enlargement(const std::vector<Coordinates>& points, std::size_t axis) {
+  constexpr double kTiny = 0x1p-100;
+  double largest = 0;
+  for (const Coordinates& p : points)
+    largest = std::max(largest, std::abs(p[axis]));
+  return largest > 0 && largest < kTiny ? -std::ilogb(largest) : 0;
+}
 
-ConvexHull convex_hull(const std::vector<Coordinates>& points) {
+ConvexHull hull_of(const std::vector<Coordinates>& points) {
   ConvexHull hull;
   if (points.empty()) return hull;
   const std::vector<std::size_t> corners = spanning(points);
@@ -137,7 +145,7 @@ ConvexHull convex_hull(const std::vector<Coordinates>& points) {
     std::vector<Coordinates> extreme;
     for (const std::size_t i : hull.vertices)
       extreme.push_back(points[i]);
-    hull.triangles = convex_hull(extreme).triangles;
+    hull.triangles = hull_of(extreme).triangles;
     return hull;
   }
   std::vector<std::int32_t> number(points.size());
@@ -149,6 +157,20 @@ ConvexHull convex_hull(const std::vector<Coordinates>& points) {
   }
   begin_with_smallest(hull.triangles);
   return hull;
+}
+
+}  // namespace
+
+// Enlarging an axis does not change which points are extreme. With tiny coordinates, products would
+// underflow, and every point would be compared in integers, which takes 30 times as long.
+ConvexHull convex_hull(const std::vector<Coordinates>& points) {
+  const int x = enlargement(points, 0), y = enlargement(points, 1), z = enlargement(points, 2);
+  if (x == 0 && y == 0 && z == 0) return hull_of(points);
+  std::vector<Coordinates> enlarged;
+  enlarged.reserve(points.size());
+  for (const Coordinates& p : points)
+    enlarged.push_back({std::ldexp(p.x, x), std::ldexp(p.y, y), std::ldexp(p.z, z)});
+  return hull_of(enlarged);
 }
 
 }  // namespace pcl_bv::detail

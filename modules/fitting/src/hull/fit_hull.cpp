@@ -18,10 +18,11 @@ namespace {
 
 using Normals = std::vector<Eigen::Vector3d>;
 
-// Appends v / |v| unless v is the zero vector.
+// Appends v / |v|. A v whose squares could underflow is the normal of a triangle without an area, and is
+// skipped.
 void add_unit(const Eigen::Vector3d& v, Normals& normals) {
-  const double length = norm3(v);
-  if (length > 0) normals.push_back((v / length).array() + 0.0);
+  constexpr double kNoLength = 0x1p-400;
+  if (v.cwiseAbs().maxCoeff() > kNoLength) normals.push_back((v / norm3(v)).array() + 0.0);
 }
 
 void add_both(const Eigen::Vector3d& v, Normals& normals) {
