@@ -26,7 +26,7 @@ class BodyDistance {
   /// the distance and of the sizes.
   double lower_bound(const PlainBox& box) const {
     const Eigen::Vector3d middle = 0.5 * (box.low + box.high);
-    const double radius = 0.5 * norm3(Eigen::Vector3d(box.high - box.low)), away = distance_to(middle);
+    const double radius = 0.5 * (box.high - box.low).stableNorm(), away = distance_to(middle);
     return away - radius - 0x1p-36 * (away + radius + size_ + taxicab3(middle));
   }
 

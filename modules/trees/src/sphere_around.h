@@ -18,7 +18,7 @@ inline Sphere sphere_around(const PositionBounds& box) {
   const Eigen::Vector3d low = vector(box.low), high = vector(box.high);
   if (!(low.x() <= high.x()) || !low.allFinite() || !high.allFinite()) return {};
   const Eigen::Vector3d middle = 0.5 * low + 0.5 * high;
-  const double radius = norm3((high - middle).eval());
+  const double radius = (high - middle).stableNorm();
   return {middle, radius + 0x1p-45 * (radius + taxicab3(low) + taxicab3(high)) + kSmallestNormal};
 }
 
