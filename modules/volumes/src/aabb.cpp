@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "bounds.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/expansion.h"
@@ -41,7 +42,8 @@ bool Aabb::contains(const Eigen::Vector3d& p) const {
 double Aabb::volume() const {
   const FloatEnvironment environment;
   if (empty()) return 0;
-  return (max_ - min_).prod();
+  const Eigen::Vector3d size = max_ - min_;
+  return product_of(size.y(), size.z(), size.x());
 }
 
 double Aabb::surface_area() const {

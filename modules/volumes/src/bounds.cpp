@@ -4,6 +4,7 @@
 #include "bounds.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "pcl_bv/numeric/constants.h"
@@ -28,6 +29,21 @@ void add_square_of_difference(Expansion& sum, double a, double b, double sign) {
 }
 
 }  // namespace
+
+// stableNormalized() is inaccurate for denormal numbers.
+Eigen::Vector3d unit_vector(const Eigen::Vector3d& v) {
+  const bool small = v.cwiseAbs().maxCoeff() < kSmallExtent;
+  return small ? Eigen::Vector3d(v * kLift).stableNormalized() : v.stableNormalized();
+}
+
+double product_of(double a, double b, double c) {
+  const double first = std::abs(a * b);
+  if (first > kSmallExtent && first < 1 / kSmallExtent) return a * b * c;
+  std::array factors{a, b, c};
+  std::sort(factors.begin(), factors.end(), [](double x, double y) { return std::abs(x) < std::abs(y); });
+  // The product of the outer two is between the smallest and the largest of the three pairs.
+  return factors[0] * factors[2] * factors[1];
+}
 
 double norm_up(const Eigen::Vector3d& v) {
   const double largest = v.cwiseAbs().maxCoeff();

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Upper bounds of lengths, also of vectors transformed by a stored isometry. The matrix of a stored isometry
-// is rarely exactly orthonormal.
+// Lengths and products in the whole range of double, and upper bounds of lengths, also of vectors transformed
+// by a stored isometry. The matrix of a stored isometry is rarely exactly orthonormal.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,6 +11,12 @@
 #include "pcl_bv/volumes/aabb.h"
 
 namespace pcl_bv::detail {
+
+/// Returns v / |v| for a vector of any length, and the zero vector for the zero vector.
+Eigen::Vector3d unit_vector(const Eigen::Vector3d& v);
+
+/// Returns a * b * c. No product of two factors overflows or underflows if the result does not.
+double product_of(double a, double b, double c);
 
 /// Return proven upper bounds of |v| and of |a - b|.
 double norm_up(const Eigen::Vector3d& v);

@@ -69,7 +69,8 @@ bool Capsule::contains(const Eigen::Vector3d& point) const {
 
 double Capsule::volume() const {
   const FloatEnvironment environment;
-  return empty() ? 0 : std::numbers::pi * radius_ * radius_ * ((b_ - a_).stableNorm() + 4 * radius_ / 3);
+  if (empty()) return 0;
+  return product_of(std::numbers::pi * radius_, radius_, (b_ - a_).stableNorm() + 4 * radius_ / 3);
 }
 
 double Capsule::surface_area() const {
@@ -84,7 +85,7 @@ Eigen::Vector3d Capsule::center() const {
 
 Eigen::Vector3d Capsule::support(const Eigen::Vector3d& direction) const {
   const FloatEnvironment environment;
-  const Eigen::Vector3d d = direction.stableNormalized();
+  const Eigen::Vector3d d = unit_vector(direction);
   const double ahead = dot3(d, b_ - a_);
   return (ahead == 0 ? center() : ahead > 0 ? b_ : a_) + radius_ * d;
 }
@@ -125,8 +126,7 @@ Mesh Capsule::mesh() const {
   if (empty()) return {};
   constexpr int sides = 24, steps = 6;  // `steps` rings from the equator of a half sphere to near its pole
   const bool is_sphere = a_ == b_;
-  const Triad triad(is_sphere ? Eigen::Vector3d(Eigen::Vector3d::UnitZ())
-                              : Eigen::Vector3d((b_ - a_).stableNormalized()));
+  const Triad triad(is_sphere ? Eigen::Vector3d(Eigen::Vector3d::UnitZ()) : unit_vector(b_ - a_));
   std::vector<Ring> rings;
   for (int i = 1 - steps; i < steps; ++i) {
     const double angle = std::numbers::pi / 2 * std::abs(i) / steps;

@@ -35,7 +35,7 @@ AxisComponents axis_components(const Eigen::Vector3d& axis, const Eigen::Vector3
 // Returns the vector unchanged if its squared length differs from 1 by at most 2^-50, otherwise normalised.
 // This ensures that a vector that was normalised once never changes again.
 Eigen::Vector3d unit_axis(const Eigen::Vector3d& v) {
-  const Eigen::Vector3d unit = std::abs(dot3(v, v) - 1) <= 0x1p-50 ? v : v.stableNormalized();
+  const Eigen::Vector3d unit = std::abs(dot3(v, v) - 1) <= 0x1p-50 ? v : unit_vector(v);
   return unit.array() + 0.0;
 }
 
@@ -80,7 +80,7 @@ bool Cylinder::contains(const Eigen::Vector3d& point) const {
 
 double Cylinder::volume() const {
   const FloatEnvironment environment;
-  return empty() ? 0 : 2 * std::numbers::pi * radius_ * radius_ * half_height_;
+  return empty() ? 0 : product_of(2 * std::numbers::pi * radius_, radius_, half_height_);
 }
 
 double Cylinder::surface_area() const {
@@ -90,12 +90,12 @@ double Cylinder::surface_area() const {
 
 Eigen::Vector3d Cylinder::support(const Eigen::Vector3d& direction) const {
   const FloatEnvironment environment;
-  const Eigen::Vector3d d = direction.stableNormalized();
+  const Eigen::Vector3d d = unit_vector(direction);
   // The cross products are accurate even if d is nearly parallel to the axis. For such a d, the difference d
   // - (d . axis) axis would be rounding noise in any direction.
   const Eigen::Vector3d perpendicular = cross3(axis_, cross3(d, axis_));
   return center_ + (dot3(d, axis_) < 0 ? -half_height_ : half_height_) * axis_ +
-         radius_ * perpendicular.stableNormalized();
+         radius_ * unit_vector(perpendicular);
 }
 
 double Cylinder::distance(const Eigen::Vector3d& point) const {

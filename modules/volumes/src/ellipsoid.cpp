@@ -56,16 +56,16 @@ bool Ellipsoid::contains(const Eigen::Vector3d& point) const {
 
 double Ellipsoid::volume() const {
   const FloatEnvironment environment;
-  return empty() ? 0 : 4 * std::numbers::pi / 3 * radii_[0] * radii_[1] * radii_[2];
+  return empty() ? 0 : product_of(4 * std::numbers::pi / 3 * radii_[0], radii_[1], radii_[2]);
 }
 
 Eigen::Vector3d Ellipsoid::support(const Eigen::Vector3d& direction) const {
   const FloatEnvironment environment;
-  const Eigen::Vector3d d = direction.stableNormalized();
+  const Eigen::Vector3d d = unit_vector(direction);
   Eigen::Vector3d stretched;
   for (int i = 0; i < 3; ++i)
     stretched[i] = radii_[i] * dot3(axes_.col(i), d);
-  const Eigen::Vector3d unit = stretched.stableNormalized();
+  const Eigen::Vector3d unit = unit_vector(stretched);
   return center_ + axes_ * radii_.cwiseProduct(unit);
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "bounds.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/directed.h"
 #include "pcl_bv/numeric/expansion.h"
@@ -44,28 +45,27 @@ std::vector<Face> faces_of(const Hull& hull) {
   return faces;
 }
 
+// Returns the hull relative to its first vertex.
+Polytope polytope_of(const Hull& hull) {
+  Polytope result;
+  result.origin = hull.vertices().front();
+  for (const Eigen::Vector3d& v : hull.vertices())
+    result.vertices.push_back(v - result.origin);
+  result.faces = faces_of(hull);
+  return result;
+}
+
 // The hull relative to its first vertex, divided by `unit`. The size of `polytope` is then about 1, so that
 // products of five lengths do not overflow.
 struct Body {
-  Polytope polytope;
-  double unit = 1;  // power of two
-};
-
-Body body_of(const Hull& hull) {
-  Body body;
-  Polytope& result = body.polytope;
-  result.origin = hull.vertices().front();
-  double size = 0;
-  for (const Eigen::Vector3d& v : hull.vertices()) {
-    result.vertices.push_back(v - result.origin);
-    size = std::max(size, result.vertices.back().cwiseAbs().maxCoeff());
+  explicit Body(const Hull& hull) : polytope(polytope_of(hull)), unit(power_of_two_near(polytope.vertices)) {
+    for (Eigen::Vector3d& v : polytope.vertices)
+      v /= unit;
   }
-  if (size > 0) body.unit = std::ldexp(1.0, std::max(std::ilogb(size), -1000));
-  for (Eigen::Vector3d& v : result.vertices)
-    v /= body.unit;
-  result.faces = faces_of(hull);
-  return body;
-}
+
+  Polytope polytope;
+  double unit;
+};
 
 // Returns an upper bound of normal . (matrix p + shift) over all p of the hull. `transform` consists of
 // matrix and shift. `normal` is plane.normal, rotated by the matrix and rounded. With the tiny d = matrix'
@@ -142,21 +142,21 @@ bool Hull::contains(const Eigen::Vector3d& point) const {
 double Hull::volume() const {
   const FloatEnvironment environment;
   if (rank_ < 3) return 0;
-  const auto [body, unit] = body_of(*this);
+  const auto [body, unit] = Body(*this);
   return measure(body.vertices, body.faces, 3).size * unit * unit * unit;
 }
 
 double Hull::surface_area() const {
   const FloatEnvironment environment;
   if (empty()) return 0;
-  const auto [body, unit] = body_of(*this);
+  const auto [body, unit] = Body(*this);
   return detail::surface_area(body) * unit * unit;
 }
 
 Eigen::Vector3d Hull::center() const {
   const FloatEnvironment environment;
   if (empty()) return Eigen::Vector3d::Constant(kNan);
-  const auto [body, unit] = body_of(*this);
+  const auto [body, unit] = Body(*this);
   const Measure m = rank_ >= 2 ? measure(body.vertices, body.faces, rank_) : Measure();
   return body.origin + m.centroid(body.vertices) * unit;
 }
@@ -165,7 +165,7 @@ Eigen::Vector3d Hull::support(const Eigen::Vector3d& direction) const {
   const FloatEnvironment environment;
   if (empty()) return Eigen::Vector3d::Constant(kNan);
   const Eigen::Vector3d* best = &vertices_.front();
-  const Eigen::Vector3d unit = direction.stableNormalized();
+  const Eigen::Vector3d unit = unit_vector(direction);
   double largest = 0;  // relative to the first vertex, so that large coordinates (UTM) cost no digits
   for (const Eigen::Vector3d& v : vertices_) {
     const double projection = project(unit, v - vertices_.front()).value;
@@ -181,8 +181,8 @@ double Hull::distance(const Eigen::Vector3d& point) const {
   if (point.hasNaN()) return kNan;
   if (empty() || !point.allFinite()) return kInfinity;
   if (contains(point)) return 0;
-  const auto [body, unit] = body_of(*this);
-  return detail::distance(body, (point - body.origin) / unit) * unit;
+  const Polytope polytope = polytope_of(*this);
+  return detail::distance(polytope, point - polytope.origin);
 }
 
 std::optional<RayInterval> Hull::intersect(const Eigen::Vector3d& origin,

@@ -12,6 +12,7 @@
 #include <numeric>
 #include <utility>
 
+#include "bounds.h"
 #include "clipped_cube.h"
 #include "kdop_support.h"
 #include "pcl_bv/numeric/constants.h"
@@ -33,6 +34,20 @@ CubeMap cube_map(const LocalSlabs& slabs) {
     width[k] = slabs.max(i) - slabs.min(i);
   }
   return {slabs.basis_inverse() * low, slabs.basis_inverse() * width.asDiagonal()};
+}
+
+// Returns the volume of the parallelepiped. If products of two of its edges overflow or underflow, the edges
+// are first divided by their lengths.
+double volume_of(const CubeMap& map) {
+  const double volume = std::abs(map.edges.determinant());
+  if (volume > 0x1p-400 && volume < 0x1p400) return volume;
+  Eigen::Vector3d lengths;
+  Eigen::Matrix3d units;
+  for (int k = 0; k < 3; ++k) {
+    units.col(k) = unit_vector(map.edges.col(k));
+    lengths[k] = map.edges.col(k).stableNorm();
+  }
+  return product_of(lengths[0] * std::abs(units.determinant()), lengths[1], lengths[2]);
 }
 
 struct MappedSlab {
@@ -164,7 +179,7 @@ Polytope intersect_slabs(const Kdop& kdop) {
   // scaled.
   const Measure m = measure(result.vertices, result.faces, cube.rank());
   result.centroid = map.corner + map.edges * m.centroid(result.vertices);
-  if (cube.rank() == 3) result.volume = std::max(0.0, m.size) * std::abs(map.edges.determinant());
+  if (cube.rank() == 3) result.volume = std::max(0.0, m.size) * volume_of(map);
   if (slabs.basis_inverse().determinant() < 0) {  // a left-handed basis mirrors the cube
     for (Face& face : result.faces)
       std::reverse(face.begin(), face.end());
@@ -181,12 +196,26 @@ double surface_area(const Polytope& polytope) {
   return twice / 2;
 }
 
+// In units of the largest coordinate, so that the normals of small faces do not underflow.
 double distance(const Polytope& polytope, const Eigen::Vector3d& point) {
+  Polytope scaled = polytope;
+  scaled.vertices.push_back(point);
+  const double unit = power_of_two_near(scaled.vertices);
+  for (Eigen::Vector3d& v : scaled.vertices)
+    v /= unit;
+  const Eigen::Vector3d p = scaled.vertices.back();
   double nearest = kInfinity;
-  for (const Face& face : polytope.faces)
-    nearest = std::min(nearest, distance_to_face(polytope, face, point));
-  if (polytope.vertices.size() == 1) nearest = (point - polytope.vertices.front()).stableNorm();
-  return nearest;
+  for (const Face& face : scaled.faces)
+    nearest = std::min(nearest, distance_to_face(scaled, face, p));
+  if (polytope.vertices.size() == 1) nearest = (p - scaled.vertices.front()).stableNorm();
+  return nearest * unit;
+}
+
+double power_of_two_near(const std::vector<Eigen::Vector3d>& vertices) {
+  double largest = 0;
+  for (const Eigen::Vector3d& v : vertices)
+    largest = std::max(largest, v.cwiseAbs().maxCoeff());
+  return largest > 0 ? std::ldexp(1.0, std::max(std::ilogb(largest), -1000)) : 1.0;
 }
 
 }  // namespace pcl_bv::detail

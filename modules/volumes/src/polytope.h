@@ -54,4 +54,8 @@ double surface_area(const Polytope& polytope);
 /// polytope.
 double distance(const Polytope& polytope, const Eigen::Vector3d& point);
 
+/// Returns the power of two, at least 2^-1000, that divides the largest coordinate into [1, 2); 1 if all
+/// coordinates are 0.
+double power_of_two_near(const std::vector<Eigen::Vector3d>& vertices);
+
 }  // namespace pcl_bv::detail

@@ -132,7 +132,7 @@ double Sphere::surface_area() const {
 
 Eigen::Vector3d Sphere::support(const Eigen::Vector3d& direction) const {
   const FloatEnvironment environment;
-  return center_ + radius_ * direction.stableNormalized();
+  return center_ + radius_ * unit_vector(direction);
 }
 
 double Sphere::distance(const Eigen::Vector3d& point) const {
