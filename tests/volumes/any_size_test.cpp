@@ -82,6 +82,10 @@ TEST(AnySize, DistancesFromPolytopesScaleWithThem) {
   for (HullPlane& plane : planes)
     plane.offset *= 0x1p-1000;
   EXPECT_NEAR(Hull(vertices, cube.triangles(), planes, 3).distance({0, 0, -far}) / far, 1, 1e-12);
+  for (const double radius : {0.0, 0x1p-1074, 1e-300, 1e-60, 1e-40}) {
+    const Ellipsoid ellipsoid(Vector3d::Zero(), Eigen::Matrix3d::Identity(), {radius, radius / 2, 0});
+    EXPECT_NEAR(ellipsoid.distance({far, 0, -far}) / (std::sqrt(2) * far), 1, 1e-12) << radius;
+  }
 }
 
 TEST(AnySize, AnAxisOfDenormalLengthIsMadeAUnit) {

@@ -60,7 +60,8 @@ double Ellipsoid::distance(const Eigen::Vector3d& point) const {
   if (contains(point)) return 0;
   const Eigen::Vector3d q = point - center_;
   const double unit = radii_.maxCoeff();
-  if (unit == 0) return q.stableNorm();
+  // From so far away an ellipsoid is a point, and in its unit squares of the distance could overflow.
+  if (unit <= 0x1p-500 * q.cwiseAbs().maxCoeff()) return q.stableNorm();
   const Eigen::Vector3d r = radii_ / unit, y = (axes_.transpose() * q).cwiseAbs() / unit;
   const double t = nearest_parameter(r, y);
   Eigen::Vector3d away;
