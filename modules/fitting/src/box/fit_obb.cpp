@@ -11,6 +11,7 @@
 #include "box/symmetric_eigen.h"
 #include "pcl_bv/kernels/slab_extents.h"
 #include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/coordinate_axis.h"
 #include "pcl_bv/numeric/exact_sum.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "same_points.h"
@@ -67,14 +68,6 @@ std::optional<Coordinates> first_valid(const PointView& points) {
   return std::nullopt;
 }
 
-// Returns k if `axis` is the unit vector of coordinate k. Otherwise returns nothing.
-std::optional<std::size_t> coordinate_axis(const Eigen::Vector3d& axis) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (axis[k] == 1 && axis[(k + 1) % 3] == 0 && axis[(k + 2) % 3] == 0) return k;
-  }
-  return std::nullopt;
-}
-
 // Same as Obb::from_slabs(), but adds an error bound to the half extents instead of summing exactly. Exact
 // sums take a seventh of the time of a box of 300 points. The offset q of the centre from the origin is a
 // rounded difference, so axis . q has an error of at most 4.01 2^-53 |q|_1 (volumes/src/obb.cpp). The rounded
@@ -118,8 +111,8 @@ Obb box_of_extents(const Eigen::Matrix3d& axes, const Coordinates& origin, const
   for (std::size_t i = 0; i < 3; ++i) {
     low[i] = found.low[i] - rounding;
     high[i] = found.high[i] + rounding;
-    const std::optional<std::size_t> k = coordinate_axis(axes.col(i));
-    if (!k) continue;
+    const std::optional<int> k = coordinate_axis(axes.col(i));
+    if (!k || axes(*k, i) < 0) continue;
     has_coordinate_axis = true;
     low[i] = round_down(exact_sum(supports.along[*k].low, -from[*k], 0));
     high[i] = round_up(exact_sum(supports.along[*k].high, -from[*k], 0));

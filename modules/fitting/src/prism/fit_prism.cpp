@@ -17,6 +17,7 @@
 #include "map_chunks.h"
 #include "pcl_bv/fitting/fit_into.h"
 #include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/coordinate_axis.h"
 #include "pcl_bv/volumes/planar_hull.h"
 #include "pcl_bv/volumes/simple_polygon.h"
 #include "prism/concave_outline.h"
@@ -163,10 +164,10 @@ struct Heights {
 // Returns the exact minimum and maximum of up . p, rounded outward.
 Heights heights_of(const PointView& points, const Supports& supports, const Eigen::Vector3d& up,
                    const FitExecution& execution) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Support& along = supports.along[k];
-    if (up == Eigen::Vector3d::Unit(static_cast<int>(k))) return {along.low, along.high};
-    if (-up == Eigen::Vector3d::Unit(static_cast<int>(k))) return {0.0 - along.high, 0.0 - along.low};
+  if (const std::optional<int> k = coordinate_axis(up)) {
+    const Support& along = supports.along[*k];
+    if (up[*k] > 0) return {along.low, along.high};
+    return {0.0 - along.high, 0.0 - along.low};
   }
   SupportDirections directions;
   directions.add({up.x(), up.y(), up.z()});

@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "pcl_bv/numeric/constants.h"
+#include "pcl_bv/numeric/coordinate_axis.h"
 #include "pcl_bv/numeric/expansion.h"
 #include "pcl_bv/numeric/vector3.h"
 #include "pcl_bv/volumes/convex_chain.h"
@@ -30,10 +31,6 @@ Rational exact_step(const Eigen::Vector3d& axis, const Coordinates& a, const Coo
   return sum;
 }
 
-bool is_coordinate_axis(const Eigen::Vector3d& axis) {
-  return axis.cwiseAbs().maxCoeff() == 1 && taxicab3(axis) == 1;
-}
-
 }  // namespace
 
 // With U = 2^-53, three products and two sums are off by at most 3.01 U of the sum of the products'
@@ -41,7 +38,7 @@ bool is_coordinate_axis(const Eigen::Vector3d& axis) {
 GroundProjection::GroundProjection(const Ground& ground, const Supports& supports)
     : axes_{ground.east, ground.north} {
   for (const Eigen::Vector3d& axis : axes_) {
-    if (is_coordinate_axis(axis)) continue;
+    if (coordinate_axis(axis)) continue;
     double terms = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const double farthest = std::max(std::abs(supports.along[k].low), std::abs(supports.along[k].high));
