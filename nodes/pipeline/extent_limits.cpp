@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "pcl_bv/fitting/fit_into.h"
+#include "pcl_bv/numeric/coordinate_axis.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 
 namespace pcl_bv::detail {
@@ -29,14 +30,6 @@ struct Limits {
 
 bool any_below(const UprightSize& size, const UprightSize& limit) {
   return size.along < limit.along || size.across < limit.across || size.up < limit.up;
-}
-
-// Returns the coordinate axis that `up` is parallel to, if any.
-std::optional<int> vertical_axis(const Eigen::Vector3d& up) {
-  for (int k = 0; k < 3; ++k) {
-    if (std::abs(up[k]) == 1) return k;
-  }
-  return std::nullopt;
 }
 
 // The two coordinate axes that are horizontal if `vertical` points up.
@@ -131,14 +124,14 @@ Limits limits_of(const ClusterConfig& config) {
 ExtentVerdict extent_verdict(const PointView& points, const ClusterConfig& config, const Eigen::Vector3d& up,
                              const Execution& execution) {
   if (!config.min_extent && !config.max_extent) return ExtentVerdict::keep;
-  return verdict_of(points, up, vertical_axis(up), limits_of(config), execution);
+  return verdict_of(points, up, coordinate_axis(up), limits_of(config), execution);
 }
 
 void ExtentLimits::apply(const ClusterConfig& config, const Eigen::Vector3d& up,
                          const std::vector<PointView>& views, const Execution& execution, Clusters& clusters,
                          std::vector<std::int64_t>& class_of, std::vector<Refinement>& refinements) {
   const Limits limits = limits_of(config);
-  const std::optional<int> vertical = vertical_axis(up);
+  const std::optional<int> vertical = coordinate_axis(up);
   verdicts_.assign(views.size(), ExtentVerdict::keep);
   const auto judge = [&](std::size_t i, const Execution& own) {
     verdicts_[i] = verdict_of(views[i], up, vertical, limits, own);

@@ -182,6 +182,20 @@ TEST(ExtentLimits, AgreeWithTheBoxesOfObbYawAtEveryUpDirectionAndFarFromTheOrigi
   EXPECT_GT(std::min({small, large, kept}), 100U);
 }
 
+// The third component is 1 to the last bit, but the box is higher by 0.5 * 7e-9.
+TEST(ExtentLimits, AreThoseOfTheBoxForAnUpDirectionNearAnAxis) {
+  std::vector<float> xyz;
+  add_box(xyz, {4, 0, 0}, {0.5, 0.25, 0.125}, 0);
+  PipelineConfig config = config_for({7e-9, 0, 1});
+  const FrameResult all = result_of(config, xyz);
+  ASSERT_EQ(all.clusters.size(), 1U);
+  EXPECT_GT(2 * std::get<Obb>(all.volume(0, 0)).half_extents()[2], 0.125 + 3e-9);
+  config.cluster.max_extent = {1, 1, 0.125 + 1e-9};
+  EXPECT_EQ(result_of(config, xyz).counts.large, 8U);
+  config.cluster.max_extent->up = 0.125 + 4e-9;
+  EXPECT_EQ(result_of(config, xyz).clusters.size(), 1U);
+}
+
 TEST(ExtentLimits, GiveTheSameBitsForEveryThreadCount) {
   PipelineConfig config;
   config.cluster.min_extent = {0.4, 0.2, 0.3};
