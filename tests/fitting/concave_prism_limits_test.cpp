@@ -94,6 +94,25 @@ TEST(ConcavePrism, OfCoordinatesNearTheSmallestDoublesIsEnclosed) {
   }
 }
 
+// 2^-900 is 1e-271, and its square is 0. 2^300 is 2e90.
+TEST(ConcavePrism, HasTheSameOutlineAtEveryScale) {
+  std::mt19937_64 random(5);
+  const std::vector<Vector3d> points = test::hedge(random, 400);
+  const Prism at_unit_scale = *fit_prism(cloud_of<double>(points).view(), {Vector3d::UnitZ(), 3});
+  ASSERT_FALSE(at_unit_scale.is_convex());
+  for (const int exponent : {-900, -600, -400, 300}) {
+    const double scale = std::ldexp(1, exponent);
+    std::vector<Vector3d> scaled = points;
+    for (Vector3d& p : scaled)
+      p *= scale;
+    const Prism prism = *fit_prism(cloud_of<double>(scaled).view(), {Vector3d::UnitZ(), 3 * scale});
+    std::vector<Vector2d> outline = at_unit_scale.outline();
+    for (Vector2d& corner : outline)
+      corner *= scale;
+    EXPECT_EQ(prism.outline(), outline) << exponent;
+  }
+}
+
 TEST(ConcavePrism, RefusesALengthThatIsNotAboveZero) {
   const TestCloud<float> cloud = test::gaussian<float>(30, 4);
   for (const double length : {0.0, -1e-9, std::numeric_limits<double>::quiet_NaN()}) {

@@ -116,13 +116,26 @@ std::vector<Eigen::Vector2d> projected_points(const PointView& points, const Sup
   return all;
 }
 
-// Returns whether an edge of the convex hull is longer than a length.
-bool has_longer_edge(const ProjectedPoints& corners, double length) {
+// Returns a power of two by which coordinates are multiplied, so that squares of lengths do not underflow.
+double scale_of(const Supports& supports) {
+  const double extent = widest_side(supports);
+  return extent < 0x1p-300 ? unit_scale(extent) : 1;
+}
+
+// Returns whether an edge of the convex hull is longer than a length. Both are multiplied by `scale`, which
+// is scale_of().
+bool has_longer_edge(const ProjectedPoints& corners, double length, double scale) {
+  const double scaled_length = length * scale;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Eigen::Vector2d edge = corners[i + 1 < corners.size() ? i + 1 : 0].at - corners[i].at;
-    if (edge.squaredNorm() > length * length) return true;
+    if ((edge * scale).squaredNorm() > scaled_length * scaled_length) return true;
   }
   return false;
+}
+
+void multiply(std::vector<Eigen::Vector2d>& points, double scale) {
+  for (Eigen::Vector2d& point : points)
+    point *= scale;
 }
 
 // Returns a concave outline around all points. Returns nothing if the convex one has no edge to replace, or
@@ -133,8 +146,9 @@ std::optional<std::vector<Eigen::Vector2d>> concave_outline_of(const PointView& 
                                                                const ProjectedPoints& corners,
                                                                const GroundProjection& projection,
                                                                double length, const FitExecution& execution) {
-  if (!(length < kInfinity) || !has_longer_edge(corners, length)) return std::nullopt;
-  const std::vector<Eigen::Vector2d> all = projected_points(points, supports, projection, execution);
+  const double scale = scale_of(supports);
+  if (!(length < kInfinity) || !has_longer_edge(corners, length, scale)) return std::nullopt;
+  std::vector<Eigen::Vector2d> all = projected_points(points, supports, projection, execution);
   std::vector<Eigen::Vector2d> hull;
   if (projection.is_exact()) {
     hull = outline_of(corners, projection);
@@ -143,8 +157,11 @@ std::optional<std::vector<Eigen::Vector2d>> concave_outline_of(const PointView& 
       hull.push_back(all[i]);
   }
   if (hull.size() < 3) return std::nullopt;
-  const std::vector<Eigen::Vector2d> outline = concave_outline(hull, all, length);
+  multiply(hull, scale);
+  multiply(all, scale);
+  std::vector<Eigen::Vector2d> outline = concave_outline(hull, all, length * scale);
   if (outline == hull) return std::nullopt;
+  multiply(outline, 1 / scale);
   std::optional<std::vector<Eigen::Vector2d>> around = polygon_around(outline, projection.error_bound());
   if (around && is_strictly_convex(*around)) return std::nullopt;
   return around;
