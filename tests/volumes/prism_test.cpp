@@ -48,6 +48,13 @@ TEST(Prism, OfATriangleHasItsMeasures) {
   EXPECT_EQ(prism.mesh().faces.size(), 5u);
 }
 
+// The area is 6 * 2^-1328, which is 0 as a double.
+TEST(Prism, HasItsVolumeEvenIfItsAreaVanishes) {
+  const double size = 0x1p-664, height = 0x1p332;
+  const Prism prism(kAxes, {{0, 0}, {3 * size, 0}, {0, 4 * size}}, 0, 2 * height);
+  EXPECT_EQ(prism.volume(), std::ldexp(12, -996));
+}
+
 TEST(Prism, IsHitByRaysWhereItsFacesAre) {
   const auto hit = triangle().intersect({-1, 1, 2}, {1, 0, 0});
   ASSERT_TRUE(hit);

@@ -102,6 +102,27 @@ TEST_P(RoundVolumesAtScales, AreInTheirBoxes) {
   }
 }
 
+// The ends of the axis, of cylinders without a radius: what rounding moves, only the radius can cover.
+TEST_P(RoundVolumesAtScales, InfiniteFloatCylindersHoldTheAxis) {
+  Random random(4);
+  for (int i = 0; i < 200; ++i) {
+    Vector3d axis = random.vector(1);
+    if (i % 2 == 0) axis = Vector3d(1, std::ldexp(random.uniform(-1, 1), -5 * i), 0);
+    const Cylinder cylinder(random.point(GetParam()), axis, 0, GetParam().extent);
+    const FloatCylinder copy = cylinder.cast_float();
+    if (!std::isfinite(copy.radius)) continue;
+    for (const double end : {-0.999999999, 0.999999999}) {
+      ExactPoint q;
+      for (int k = 0; k < 3; ++k)
+        q[static_cast<std::size_t>(k)] = Rational(cylinder.center()[k]) - Rational(copy.center[k]) +
+                                         Rational(end * GetParam().extent) * Rational(cylinder.axis()[k]);
+      const ExactPoint a = exact(copy.axis.cast<double>());
+      const Rational along = testing::product(q, a), aa = testing::product(a, a), r(copy.radius);
+      EXPECT_TRUE(testing::product(q, q) * aa - along * along <= r * r * aa) << i;
+    }
+  }
+}
+
 TEST_P(RoundVolumesAtScales, AreEnteredAtZeroByRaysFromPointsThatTheyContain) {
   Random random(5);
   const double infinity = std::numeric_limits<double>::infinity();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -188,10 +189,12 @@ FloatCylinder Cylinder::cast_float() const {
   const FloatEnvironment environment;
   const Eigen::Vector3f none = Eigen::Vector3f::Constant(static_cast<float>(kNan));
   if (empty()) return {none, none, -1.0F};
-  const Eigen::Vector3f center = center_.cast<float>(), axis = axis_.cast<float>();
-  const double moved = (center.cast<double>() - center_).norm();
-  const double rotated = 2 * (axis.cast<double>() - axis_).norm();
-  return {center, axis, float_up((radius_ + moved + rotated * half_height_) * (1 + 1e-12))};
+  constexpr double limit = std::numeric_limits<float>::max();
+  const Eigen::Vector3f center = center_.cwiseMax(-limit).cwiseMin(limit).cast<float>();
+  const Eigen::Vector3f axis = axis_.cast<float>();
+  const double moved = distance_up(center_, center.cast<double>());
+  const double rotated = multiply_up(2 * half_height_, distance_up(axis_, axis.cast<double>()));
+  return {center, axis, float_up((radius_ + moved + rotated) * (1 + 1e-12))};
 }
 
 bool operator==(const Cylinder& a, const Cylinder& b) {

@@ -141,7 +141,8 @@ double Prism::volume() const {
   const FloatEnvironment environment;
   if (empty()) return 0;
   const Polygon polygon(*this);
-  return polygon.area() * polygon.unit * polygon.unit * (high_ - low_);
+  // The height comes between the two units, because their product can vanish or overflow before it.
+  return polygon.area() * polygon.unit * (high_ - low_) * polygon.unit;
 }
 
 double Prism::surface_area() const {
