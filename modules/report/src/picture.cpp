@@ -100,7 +100,8 @@ void add_arc(cairo_t* cairo, const Sphere& sphere, const View& view, const Eigen
 /// filled.
 void fill_glass(cairo_t* cairo, const Eigen::Vector3d& at, double radius, const Colour& colour) {
   constexpr double widest = 1e5;
-  if (!(std::max({std::abs(at.x()), std::abs(at.y()), radius}) < widest)) return cairo_new_path(cairo);
+  const bool fits = std::abs(at.x()) < widest && std::abs(at.y()) < widest && radius < widest;  // not for NaN
+  if (!fits) return cairo_new_path(cairo);
   cairo_pattern_t* glass = cairo_pattern_create_radial(at.x(), at.y(), 0, at.x(), at.y(), radius);
   for (const auto& [part, alpha] : {std::pair{0.0, 0.02}, {0.7, 0.05}, {1.0, 0.16}})
     cairo_pattern_add_color_stop_rgba(glass, part, colour[0], colour[1], colour[2], alpha);

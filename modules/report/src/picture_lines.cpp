@@ -46,7 +46,7 @@ void add_path(cairo_t* cairo, const View& view, const std::vector<Eigen::Vector3
   Path path;
   for (const Eigen::Vector3d& point : points) {
     path.push_back(view.project(point));
-    if (!(path.back().cwiseAbs().maxCoeff() < 1e300)) return;
+    if (!(path.back().array().abs() < 1e300).all()) return;  // also for NaN
   }
   for (const int axis : {0, 1}) {
     path = clip_path(path, closed, axis, 1, beyond + (axis == 0 ? view.width : view.height));

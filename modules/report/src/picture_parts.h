@@ -22,14 +22,15 @@ namespace pcl_bv::detail {
 struct View {
   Eigen::Vector3d right, up, toward;    ///< Orthonormal; `toward` points from the scene to the viewer.
   Eigen::Vector3d world_up;             ///< Picture::up as a unit vector.
-  std::array<double, 2> heights{0, 1};  ///< Central range of the points' heights, for colours by height.
+  std::array<double, 2> heights{0, 0};  ///< Central range of the points' heights, for colours by height.
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  double scale = 1;  ///< Pixels per unit.
+  double scale = 1;  ///< Pixels per unit; finite.
   int width = 0;
   int height = 0;
   bool empty = true;  ///< Whether there are no points and no volumes to frame.
 
-  /// Returns the pixel coordinates x and y, and the depth.
+  /// Returns the pixel coordinates x and y, and the depth. They are not finite if the point is farther away
+  /// than the range of doubles.
   Eigen::Vector3d project(const Eigen::Vector3d& p) const {
     const Eigen::Vector3d d = (p - center) * scale;
     return {width / 2.0 + d.dot(right), height / 2.0 - d.dot(up), -d.dot(toward)};
@@ -61,7 +62,8 @@ struct Styles {
 };
 
 /// Adds a polyline through points of the scene to Cairo's path, or a polygon if `closed`. The line is clipped
-/// at 64 pixels outside the picture, because Cairo's coordinates are limited to eight million pixels.
+/// at 64 pixels outside the picture, because Cairo's coordinates are limited to eight million pixels. A line
+/// to a point beyond 1e300 pixels is left out.
 void add_path(cairo_t* cairo, const View& view, const std::vector<Eigen::Vector3d>& points, bool closed);
 
 /// Draws and clears Cairo's path. If `front`, the line has a dark outline, so that it stands out from the

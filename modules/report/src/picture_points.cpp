@@ -35,9 +35,16 @@ Colour height_colour(float t) {
                               {0.44f, 0.82f, 0.56f},
                               {0.95f, 0.87f, 0.45f},
                               {0.98f, 0.62f, 0.34f}};
-  const float at = std::clamp(t, 0.0f, 1.0f) * 4;
+  const float at = t * 4;
   const int stop = std::min(static_cast<int>(at), 3);
   return mix(stops[stop], stops[stop + 1], at - static_cast<float>(stop));
+}
+
+/// Returns the relative height of a point in the range View::heights, from 0 to 1.
+float relative_height(const View& view, const Eigen::Vector3d& point) {
+  const auto& [low, high] = view.heights;
+  const double above = point.dot(view.world_up) - low;
+  return static_cast<float>(std::clamp(low < high ? above / (high - low) : above, 0.0, 1.0));
 }
 
 struct Raster {
@@ -141,9 +148,7 @@ std::vector<std::uint32_t> draw_points(const Picture& picture, const View& view)
   const auto draw = [&](const Coordinates& p, std::size_t index) {
     const Eigen::Vector3d point(p.x, p.y, p.z), at = view.project(point);
     const Eigen::Vector3d sample(at.x() * samples, at.y() * samples, at.z() * samples);
-    const auto& [low, high] = view.heights;
-    const double height = (point.dot(view.world_up) - low) / (high - low);
-    if (!picture.labels) return splat(raster, sample, large, height_colour(static_cast<float>(height)));
+    if (!picture.labels) return splat(raster, sample, large, height_colour(relative_height(view, point)));
     const std::uint32_t label = picture.labels[index];
     if (label < kLabelGround) return splat(raster, sample, large, palette(label));
     const double near = 0.5 - at.z() / picture.height;

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "pcl_bv/points/point_source.h"
@@ -63,12 +64,15 @@ Interval central_interval(const std::vector<Eigen::Vector3d>& points, const Eige
   return robust_interval(parts, parts.size() / extreme);
 }
 
-/// Returns the interval of the non-empty volumes along the axis. At each end, one in 16 volumes is ignored.
-/// Otherwise a few distant volumes would make all other volumes small in the picture.
+/// Returns the interval of the non-empty volumes along the axis, except of those beyond the range of doubles.
+/// At each end, one in 16 volumes is ignored. Otherwise a few distant volumes would make all other volumes
+/// small in the picture.
 Interval central_interval(const std::vector<PictureVolume>& volumes, const Eigen::Vector3d& axis) {
   std::vector<Interval> parts;
   for (const auto& [volume, colour, label, method] : volumes) {
-    if (!empty(volume)) parts.push_back({support(volume, -axis).dot(axis), support(volume, axis).dot(axis)});
+    if (empty(volume)) continue;
+    const Interval part{support(volume, -axis).dot(axis), support(volume, axis).dot(axis)};
+    if (std::isfinite(part.low) && std::isfinite(part.high)) parts.push_back(part);
   }
   return robust_interval(parts, parts.size() / 16);
 }
@@ -92,8 +96,8 @@ View oriented(const Picture& picture) {
 /// Returns the cropped length of a picture's side, which is `content` pixels and the margins for marks. The
 /// length is at least `min_length` and at most `side`.
 int cropped(int side, double content, int min_length) {
-  return std::min(side,
-                  std::max(min_length, static_cast<int>(std::min<double>(side, content)) + 2 * kMarkMargin));
+  const int shown = static_cast<int>(std::max(0.0, std::min<double>(side, content)));
+  return std::min(side, std::max(min_length, shown + 2 * kMarkMargin));
 }
 
 }  // namespace
@@ -106,7 +110,7 @@ View fit_view(const Picture& picture) {
   view.empty = !any_volume && points.empty();
   if (view.empty) return view;
   const Interval heights = central_interval(points, view.world_up, 50);
-  view.heights = {heights.low, heights.low < heights.high ? heights.high : heights.low + 1};
+  view.heights = {heights.low, heights.high};
   if (!picture.labels && any_volume) points.clear();
 
   const Eigen::Vector3d axes[3] = {view.right, view.up, view.toward};
@@ -118,7 +122,11 @@ View fit_view(const Picture& picture) {
     size[k] = high - low;
   }
   const double fill = std::max(size[0] / picture.width, size[1] / picture.height);
-  if (fill > 0) view.scale = (1 - 2 * margin_part) / fill;
+  // If pixels were smaller, the rounding of the centre would move the scene out of the picture.
+  const double least = 0x1p-48 * view.center.cwiseAbs().maxCoeff() / std::min(picture.width, picture.height);
+  constexpr double largest_scale = std::numeric_limits<double>::max();
+  view.scale = fill > 0 ? std::min((1 - 2 * margin_part) / std::max(fill, least), largest_scale)
+                        : std::min(1.0, 1 / least);
   const bool crops = picture.from == ViewFrom::front || picture.from == ViewFrom::side;
   if (crops && has_marks(view)) {
     view.width = cropped(picture.width, size[0] * view.scale, kMinMarkedWidth);

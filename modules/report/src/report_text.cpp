@@ -28,9 +28,10 @@ std::string length(double value, int decimals) {
 
 /// Formats a volume of any magnitude with at least four significant digits.
 std::string four_digits(double value) {
-  const int exponent = value == 0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(value))));
-  return exponent < -3 || exponent > 6 ? general_text(value, 4)
-                                       : fixed_text(value, std::max(0, 3 - exponent));
+  const double magnitude = std::abs(value);
+  if (magnitude != 0 && !(magnitude >= 1e-3 && magnitude < 1e7)) return general_text(value, 4);
+  const int exponent = value == 0 ? 0 : static_cast<int>(std::floor(std::log10(magnitude)));
+  return fixed_text(value, std::max(0, 3 - exponent));
 }
 
 /// Returns the number of decimals for the whole table, 0 to 6. The largest size should have five digits, but
