@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 #include "page.h"
 #include "pcl_bv/points/point_source.h"
+#include "pcl_bv/segmentation/up.h"
 #include "pcl_bv/volumes/aabb.h"
 #include "pipeline/config/settings.h"
 
@@ -64,7 +66,7 @@ class PagePoints {
   void add(const Coordinates& point, std::size_t number) {
     const float xyz[] = {static_cast<float>(point.x - origin_.x()), static_cast<float>(point.y - origin_.y()),
                          static_cast<float>(point.z - origin_.z())};
-    if (!std::isfinite(xyz[0] + xyz[1] + xyz[2])) return;
+    if (!std::all_of(std::begin(xyz), std::end(xyz), [](float c) { return std::isfinite(c); })) return;
     append(xyz);
     append(labels_.empty() ? std::uint32_t{0} : labels_[number]);
     if (frame_.intensity) append(frame_.intensity->at(number));
@@ -103,7 +105,7 @@ std::string view_html(const Frame& frame, const FrameResult& result, const Repor
       "<script id=\"data\" type=\"application/json\">{\"report\":" + escaped_for_script(report_json(report)) +
       ",\"origin\":" + list(origin) + ",\"shown\":" + std::to_string(points.shown) +
       ",\"of\":" + std::to_string(frame.points.count) + ",\"stride\":" + (frame.intensity ? "20" : "16") +
-      ",\"up\":" + list(result.config->ground.up.normalized()) + ",\"points\":\"" + base64(points.bytes) +
+      ",\"up\":" + list(normalized_up(result.config->ground.up)) + ",\"points\":\"" + base64(points.bytes) +
       "\"}</script>";
   std::string page(live_page());
   page.replace(page.find(kPageData), kPageData.size(), data);

@@ -199,6 +199,21 @@ class Files(unittest.TestCase):
         self.assertEqual(path.read_bytes(), shown.png())
         self.assertNotEqual(result.picture(view="top").png(), result.picture(view="side").png())
 
+    def test_pictures_and_files_of_points_of_any_magnitude(self):
+        for value in (0, 5e-324, 1e-300, 1e16, 1e20, 1e38, 1e100):
+            for extent in (0, 5e-324, 1e-300, 1e20, 9e99):
+                points = np.full((20, 3), value, dtype=np.float64)
+                points[::2] -= extent
+                volumes = pcl_bv.fit(points, ["aabb", "obb-yaw", "sphere", "prism"])
+                for view in ("iso", "top", "front", "side"):
+                    self.assertEqual(pcl_bv.show(points, view=view).png()[:4], b"\x89PNG")
+                shown = pcl_bv.show(points, volumes, width=400, height=300)
+                self.assertEqual(shown.png()[:4], b"\x89PNG")
+                for extension in (".json", ".csv", ".ply", ".vtp", ".svg"):
+                    path = self.folder / ("out" + extension)
+                    pcl_bv.write(path, shown if extension == ".svg" else volumes)
+                    self.assertNotRegex(path.read_bytes(), rb"[ ,:>](-?inf|-?nan|NaN|null)")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -14,6 +14,7 @@
 #include "palette.h"
 #include "pcl_bv/points/point_source.h"
 #include "pcl_bv/report/meshes.h"
+#include "pcl_bv/segmentation/up.h"
 #include "pcl_bv/volumes/shortest_rotation.h"
 #include "volume_cells.h"
 
@@ -178,7 +179,7 @@ Eigen::Matrix3d rotation_to_y(const Eigen::Vector3d& unit) {
 
 // Column by column: moves by the origin, then rotates `up` to y, which is up in glTF.
 Eigen::Matrix4d glb_matrix(const Eigen::Vector3d& up, const Eigen::Vector3d& origin) {
-  const Eigen::Vector3d unit = up.normalized();
+  const Eigen::Vector3d unit = normalized_up(up);
   Eigen::Matrix3d rotation;
   rotation << 1, 0, 0, 0, 0, 1, 0, -1, 0;  // exact for z up
   if (unit != Eigen::Vector3d::UnitZ()) rotation = rotation_to_y(unit);
