@@ -31,12 +31,35 @@ Rational exact_step(const Eigen::Vector3d& axis, const Coordinates& a, const Coo
   return sum;
 }
 
+// A product of doubles as a sum of two doubles.
+struct Product {
+  Product(double a, double b)
+      : high(a * b),
+        low(std::fma(a, b, -high)),
+        exact(a == 0 || b == 0 || std::abs(a) == 1 || std::abs(b) == 1 || std::abs(high) >= 0x1p-900) {}
+
+  double high, low;
+  bool exact;  // low may be rounded otherwise
+};
+
 }  // namespace
 
 // With U = 2^-53, three products and two sums are off by at most 3.01 U of the sum of the products'
 // magnitudes. The bound is 4 U of this sum, plus the smallest normal number for products that underflow.
 GroundProjection::GroundProjection(const Ground& ground, const Supports& supports)
     : axes_{ground.east, ground.north} {
+  double farthest = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    farthest = std::max({farthest, std::abs(supports.along[k].low), std::abs(supports.along[k].high)});
+  scale_ = farthest > 0 ? std::ldexp(1.0, std::min(400 - std::ilogb(farthest), 1000)) : 1;
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    for (const Product& p : {Product(axes_[0][i], axes_[1][j]), Product(-axes_[0][j], axes_[1][i])}) {
+      has_exact_normal_ = has_exact_normal_ && p.exact;
+      for (const double term : {p.high, p.low})
+        if (term != 0) normal_[k].push_back(term);
+    }
+  }
   for (const Eigen::Vector3d& axis : axes_) {
     if (coordinate_axis(axis)) continue;
     double terms = 0;
@@ -73,9 +96,32 @@ int GroundProjection::turn(const ProjectedPoint& a, const ProjectedPoint& b, con
       0x1p-50 * (std::abs(left) + std::abs(right)) + 8 * error_bound_ * lengths + kSmallestNormal;
   if (std::abs(left - right) > rounding) return left > right ? 1 : -1;
   if (is_exact()) return orientation(a.at, b.at, c.at);
-  const Rational exact = exact_step(axes_[0], a.point, b.point) * exact_step(axes_[1], a.point, c.point) -
-                         exact_step(axes_[1], a.point, b.point) * exact_step(axes_[0], a.point, c.point);
-  return exact.sign();
+  return exact_turn(a.point, b.point, c.point);
+}
+
+// With the axes e and n, (e . ab) (n . ac) - (n . ab) (e . ac) = (e x n) . (a x b + b x c + c x a). If up is
+// near a coordinate axis, most terms of e x n are 0, so that the sum has few terms. Rationals are needed only
+// if products underflow. The sign does not change if all coordinates are multiplied by the power of two that
+// keeps products in range.
+int GroundProjection::exact_turn(const Coordinates& a, const Coordinates& b, const Coordinates& c) const {
+  Expansion sum;
+  bool exact = has_exact_normal_;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    const double factors[6][2] = {{a[i], b[j]},  {-a[j], b[i]}, {b[i], c[j]},
+                                  {-b[j], c[i]}, {c[i], a[j]},  {-c[j], a[i]}};
+    for (const double normal : normal_[k]) {
+      for (const auto& [x, y] : factors) {
+        const Product p(x * scale_, y * scale_);
+        exact = exact && p.exact;
+        sum.add_product(normal, p.high).add_product(normal, p.low);
+      }
+    }
+  }
+  if (exact && sum.is_lossless()) return sum.sign();
+  const Rational cross = exact_step(axes_[0], a, b) * exact_step(axes_[1], a, c) -
+                         exact_step(axes_[1], a, b) * exact_step(axes_[0], a, c);
+  return cross.sign();
 }
 
 void GroundProjection::keep_corners(std::vector<ProjectedPoint>& points) const {

@@ -10,6 +10,7 @@
 #include "box/outline.h"
 #include "pcl_bv/numeric/coordinates.h"
 #include "pcl_bv/volumes/outline.h"
+#include "small_vector.h"
 
 namespace pcl_bv::detail {
 
@@ -44,9 +45,13 @@ class GroundProjection {
  private:
   int compare(const ProjectedPoint& a, const ProjectedPoint& b, int axis) const;
   int turn(const ProjectedPoint& a, const ProjectedPoint& b, const ProjectedPoint& c) const;
+  int exact_turn(const Coordinates& a, const Coordinates& b, const Coordinates& c) const;
 
   Eigen::Vector3d axes_[2];
-  double error_bound_ = 0;  // of the rounded coordinates
+  SmallVector<double, 4> normal_[3];  // terms whose exact sums are the components of axes_[0] x axes_[1]
+  bool has_exact_normal_ = true;      // whether they are; products may underflow
+  double scale_;                      // for exact_turn()
+  double error_bound_ = 0;            // of the rounded coordinates
 };
 
 }  // namespace pcl_bv::detail
