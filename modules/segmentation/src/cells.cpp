@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <utility>
-
 
 namespace pcl_bv::detail {
 namespace {
@@ -86,24 +86,76 @@ void count_cells(const BlockKeys<Key>& keys, std::uint32_t count, Cells<T>& cell
 
 }  // namespace
 
-std::int64_t far_cell_number(double cells) {
-  // Read as an integer, the bits of a positive double increase with the double, with 2^52 values in each
-  // octave. Dropping 24 bits leaves 2^28 steps per octave. Each step is at least 2^12 cells.
-  const auto steps = [](double v) { return std::bit_cast<std::int64_t>(v) >> 24; };
+std::int64_t cell_number(double coordinate, double inverse_side) {
+  constexpr double far_cells = 0x1p53;
+  const double cells = coordinate * inverse_side;
+  if (std::abs(cells) < far_cells) {
+    const double floor = std::floor(cells);
+    const bool rounded_up = floor == cells && std::fma(coordinate, inverse_side, -cells) < 0;
+    return static_cast<std::int64_t>(floor) - (rounded_up ? 1 : 0);
+  }
+  // The bits of a positive double, read as an integer, count the doubles from 0 to it.
+  const auto bits = [](double v) { return std::bit_cast<std::int64_t>(v); };
+  double first = far_cells / inverse_side;  // with its rounding: the smallest coordinate that is far
+  while (first * inverse_side < far_cells)
+    first = std::bit_cast<double>(bits(first) + 1);
+  while (std::bit_cast<double>(bits(first) - 1) * inverse_side >= far_cells)
+    first = std::bit_cast<double>(bits(first) - 1);
   const std::int64_t magnitude =
-      static_cast<std::int64_t>(far_cells) + steps(std::abs(cells)) - steps(far_cells);
+      static_cast<std::int64_t>(far_cells) + bits(std::abs(coordinate)) - bits(first);
   return cells < 0 ? -magnitude : magnitude;
 }
 
-void CellGrid::add_axis(std::size_t axis, double min, double max) {
+void CellGrid::add_axis(std::size_t axis, std::int64_t low, std::int64_t high) {
   constexpr std::int64_t spare = 4;  // in cells: one block
-  const std::int64_t low = cell_number(min, inverse_side);
-  const std::int64_t high = cell_number(max, inverse_side);
   origin[axis] = low - spare;
   shift[axis] = key_bits;
   const std::int64_t last_block = (high + spare - origin[axis]) / 4;
   key_bits += static_cast<unsigned>(std::bit_width(static_cast<std::uint64_t>(last_block)));
-  near = near && static_cast<double>(std::max(std::abs(low), std::abs(high))) < near_cells;
+}
+
+// `numbers` are those of the blocks of all points.
+void CellGrid::add_far_axis(std::size_t axis, std::vector<std::int64_t>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  std::vector<FarBlock>& blocks = far_blocks_[axis];
+  blocks.reserve(numbers.size());
+  std::int64_t in_key = 1;  // after the spare block
+  for (const std::int64_t number : numbers) {
+    if (!blocks.empty()) in_key += number == blocks.back().number + 1 ? 1 : 2;
+    blocks.push_back({number, in_key});
+  }
+  shift[axis] = key_bits;
+  key_bits += static_cast<unsigned>(std::bit_width(static_cast<std::uint64_t>(in_key + 1)));
+}
+
+std::int64_t CellGrid::far_cell(std::size_t axis, double coordinate) const {
+  const std::int64_t cell = cell_number(coordinate, inverse_side);
+  const auto at = std::lower_bound(far_blocks_[axis].begin(), far_blocks_[axis].end(), cell >> 2,
+                                   [](const FarBlock& block, std::int64_t number) { return block.number < number; });
+  return at->in_key << 2 | (cell & 3);
+}
+
+template <typename T>
+CellGrid::CellGrid(const std::vector<Point<T>>& points, const Box<T>& box, double inverse_of_side)
+    : inverse_side(inverse_of_side), origin{}, shift{}, key_bits(0), near(true) {
+  constexpr std::array<T Point<T>::*, 3> axes{&Point<T>::x, &Point<T>::y, &Point<T>::z};
+  const auto cell = [&](const Point<T>& p, std::size_t axis) { return cell_number(p.*axes[axis], inverse_side); };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int64_t farthest = std::max(std::abs(cell(box.min, axis)), std::abs(cell(box.max, axis)));
+    near = near && static_cast<double>(farthest) < near_cells;
+  }
+  std::vector<std::int64_t> numbers;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (near) {
+      add_axis(axis, cell(box.min, axis), cell(box.max, axis));
+      continue;
+    }
+    numbers.clear();
+    for (const Point<T>& p : points)
+      numbers.push_back(cell(p, axis) >> 2);
+    add_far_axis(axis, numbers);
+  }
 }
 
 template <typename T, typename Key>
@@ -135,6 +187,8 @@ void make_cells(const std::vector<Point<T>>& points, const CellGrid& grid, const
   });
 }
 
+template CellGrid::CellGrid(const std::vector<Point<float>>&, const Box<float>&, double);
+template CellGrid::CellGrid(const std::vector<Point<double>>&, const Box<double>&, double);
 // NOLINTBEGIN(bugprone-macro-parentheses): the arguments are types
 #define PCL_BV_CELLS(T, Key)                                                                                \
   template void make_cells(const std::vector<Point<T>>&, const CellGrid&, const ParallelPolicy&, Cells<T>&, \

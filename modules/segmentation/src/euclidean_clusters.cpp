@@ -61,19 +61,21 @@ void detail::check(const ClusterOptions& options) {
 
 namespace {
 
-// Returns 1 / side of the cells. The margin of 1e-6 covers the rounding of d2 (5 * 2^-24), so that points of
-// one cell are linked.
+// The only r2 for which points of one cell may not be linked: no side of a cell covers the rounding of the
+// squares, and cells of linked points are at most two apart. Tolerances from 5.9e-23 to 7e-23 have it.
+constexpr float not_solid_r2 = 3 * std::numeric_limits<float>::denorm_min();
+
+// Returns 1 / side of the cells. The margin of 1e-6 covers the rounding of d2 (5 * 2^-24) and of the numbers of
+// cells near the origin (2^-23), so that points of one cell are linked. Denormal squares are rounded to
+// multiples of the smallest float. Those of the side are rounded to the largest multiple below r2 / 3.
 template <typename T>
 double inverse_cell_side(T r2) {
-  return std::sqrt(3.0) * (1 + 1e-6) / max_linked_difference(r2);
-}
-
-// Returns whether all points of a cell are certainly linked. The margin of inverse_cell_side() covers the
-// rounding of the cell boundaries if grid.near. The margin covers the rounding of d2 if r2 is far from
-// underflow and overflow.
-template <typename T>
-bool cells_are_solid(const CellGrid& grid, T r2) {
-  return grid.near && r2 >= T(1e-30) && r2 <= T(1e30);
+  using limits = std::numeric_limits<T>;
+  const double step = limits::denorm_min();
+  const double side = r2 > 0 && r2 < limits::min() && r2 != not_solid_r2
+                          ? std::sqrt((std::floor((r2 / step - 1) / 3) + 0.5) * step)
+                          : max_linked_difference(r2) / std::sqrt(3.0);
+  return (1 + 1e-6) / side;
 }
 
 // Finds the connected components. Returns the root of noise. If min_points is 1, every point is a core point,
@@ -82,7 +84,7 @@ template <typename T, typename Key>
 std::uint32_t find_components(const std::vector<Point<T>>& points, PointScratch<T>& scratch,
                               const CellGrid& grid, T r2, std::size_t min_points,
                               const ParallelPolicy& policy, BlockKeys<Key>& keys, UnionFind& sets) {
-  const bool solid = cells_are_solid(grid, r2);
+  const bool solid = r2 != not_solid_r2;
   scratch.cells.by_point = !solid || min_points > 1;
   make_cells(points, grid, policy, scratch.cells, keys);
   if (keys.keys.size() >= free_memory_from_blocks) keys.release_memory();
@@ -115,7 +117,7 @@ struct EuclideanClusterer::Scratch {
                      const ParallelPolicy& policy) {
     auto& scratch = std::get<PointScratch<T>>(points);
     const T r2 = static_cast<T>(r * r);
-    const CellGrid grid(box, inverse_cell_side(r2));
+    const CellGrid grid(all, box, inverse_cell_side(r2));
     return grid.key_bits <= 64 ? find_components(all, scratch, grid, r2, min_points, policy, keys, sets)
                                : find_components(all, scratch, grid, r2, min_points, policy, wide_keys, sets);
   }
@@ -124,14 +126,10 @@ struct EuclideanClusterer::Scratch {
   void link_by_range(const ClusterOptions& options, const ParallelPolicy& policy) {
     auto& scratch = std::get<PointScratch<T>>(points);
     RangeLevels<T>& levels = scratch.levels;
-    levels.start(scratch.valid.points);
-    for (std::size_t i = 0;; ++i) {
-      const RangeLevel level = range_level(options.tolerance, options.tolerance_per_metre, i);
-      if (!(level.tolerance <= double{std::numeric_limits<float>::max()}) ||
-          !levels.advance_to(level, options.range_origin))
-        break;
-      link(levels.points(), box_of(levels.points().data(), levels.points().size()),
-           double{static_cast<float>(level.tolerance)}, 1, policy);
+    levels.start(scratch.valid.points, options);
+    while (levels.next()) {
+      link(levels.points(), box_of(levels.points().data(), levels.points().size()), levels.tolerance(), 1,
+           policy);
       levels.unite(sets.roots(), scratch.cells.node);
     }
   }
