@@ -17,24 +17,15 @@ struct Group {
 };
 
 template <typename T>
-Point<T> extent(const Box<T>& box) {
-  return {box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z};
-}
-
-template <typename T>
 T longest_side(const Box<T>& box) {
-  const Point<T> e = extent(box);
-  return std::max({e.x, e.y, e.z});
+  return box.sides().*longest_axis(box);
 }
 
 // Splits a group into halves at the median along the longest side of its box, so that the depth of the
 // recursion is logarithmic for any distribution.
 template <typename T>
 std::pair<Group<T>, Group<T>> split(const Group<T>& group) {
-  const Point<T> e = extent(group.box);
-  const T Point<T>::*axis = e.x >= e.y && e.x >= e.z ? &Point<T>::x
-                            : e.y >= e.z             ? &Point<T>::y
-                                                     : &Point<T>::z;
+  const auto axis = longest_axis(group.box);
   Point<T>* const middle = group.points + group.count / 2;
   std::nth_element(group.points, middle, group.points + group.count,
                    [axis](const Point<T>& p, const Point<T>& q) { return p.*axis < q.*axis; });

@@ -131,8 +131,9 @@ void CellGrid::add_far_axis(std::size_t axis, std::vector<std::int64_t>& numbers
 
 std::int64_t CellGrid::far_cell(std::size_t axis, double coordinate) const {
   const std::int64_t cell = cell_number(coordinate, inverse_side);
-  const auto at = std::lower_bound(far_blocks_[axis].begin(), far_blocks_[axis].end(), cell >> 2,
-                                   [](const FarBlock& block, std::int64_t number) { return block.number < number; });
+  const auto at =
+      std::lower_bound(far_blocks_[axis].begin(), far_blocks_[axis].end(), cell >> 2,
+                       [](const FarBlock& block, std::int64_t number) { return block.number < number; });
   return at->in_key << 2 | (cell & 3);
 }
 
@@ -140,7 +141,9 @@ template <typename T>
 CellGrid::CellGrid(const std::vector<Point<T>>& points, const Box<T>& box, double inverse_of_side)
     : inverse_side(inverse_of_side), origin{}, shift{}, key_bits(0), near(true) {
   constexpr std::array<T Point<T>::*, 3> axes{&Point<T>::x, &Point<T>::y, &Point<T>::z};
-  const auto cell = [&](const Point<T>& p, std::size_t axis) { return cell_number(p.*axes[axis], inverse_side); };
+  const auto cell = [&](const Point<T>& p, std::size_t axis) {
+    return cell_number(p.*axes[axis], inverse_side);
+  };
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::int64_t farthest = std::max(std::abs(cell(box.min, axis)), std::abs(cell(box.max, axis)));
     near = near && static_cast<double>(farthest) < near_cells;

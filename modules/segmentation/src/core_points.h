@@ -14,26 +14,37 @@
 
 namespace pcl_bv::detail {
 
+/// A point and its index in the input of make_cells().
+template <typename T>
+struct NumberedPoint {
+  Point<T> point;
+  std::uint32_t number;
+};
+
 /// Buffers that calls reuse. They take about 22 (float) or 35 (double) bytes per point and 16 bytes per
 /// block. A position is a position in Cells::points.
 template <typename T>
 struct CoreScratch {
-  std::vector<std::uint8_t> core;         ///< For each position, whether the point is core.
-  std::vector<std::uint64_t> core_cells;  ///< For each block, bits of its cells with core points.
+  std::vector<std::uint8_t> core;                  ///< For each position, whether the point is core.
+  std::vector<std::uint64_t> core_cells;           ///< For each block, bits of its cells with core points.
   std::vector<std::uint64_t> cells_with_non_core;  ///< For each block, bits of cells with non-core points.
   std::vector<std::uint32_t> number;  ///< For each position, the point's index in the input of make_cells().
   /// For each position of a border point, the position of its core point. For each position of a core point,
   /// its node, which remove_non_core() sets.
   std::vector<std::uint32_t> label;
-  /// Element g is the box of the `group_size` points that start at Cells::points[g * group_size]. A last
-  /// group with fewer points has no box.
-  std::vector<Box<T>> groups;
-  PointColumns<T> columns;  ///< Of Cells::points.
+  /// A tree of boxes. Element g of boxes[k] is the box of the points of Cells::points from position g * s to
+  /// (g + 1) * s, with s = group_size * 2^k. Points that fill no whole s at the end have no box.
+  std::vector<std::vector<Box<T>>> boxes;
+  std::vector<NumberedPoint<T>> large_cell;  ///< Copy of the points of one cell.
+  PointColumns<T> columns;                   ///< Of Cells::points.
 };
 
-/// Number of consecutive positions in a group with a common box. Cells with very many points are tested group
-/// by group.
+/// Number of consecutive positions in a group with a common box. Cells with very many points are tested box
+/// by box.
 inline constexpr std::uint32_t group_size = 32;
+
+/// Number of points up to which all points of the cells around are compared, instead of those of some boxes.
+inline constexpr std::uint32_t few_points = 1024;
 
 /// Finds the core points, and the core point of each border point. A point is a core point if at least
 /// min_points (>= 2) points, itself included, have squared_distance() < r2 from it. A border point belongs to
@@ -41,9 +52,11 @@ inline constexpr std::uint32_t group_size = 32;
 ///
 /// `cells` must be made with Cells::by_point = true. `solid` means that all points of a cell are linked. Then
 /// the points of a cell with min_points or more points are core points without a test.
+///
+/// Reorders the points of cells with more than few_points points, so that boxes hold points near each other.
 template <typename T, typename Key>
 void find_core(const CellGrid& grid, T r2, std::size_t min_points, bool solid, const ParallelPolicy& policy,
-               const std::vector<Key>& keys, const Cells<T>& cells, CoreScratch<T>& scratch);
+               const std::vector<Key>& keys, Cells<T>& cells, CoreScratch<T>& scratch);
 
 /// Removes all points but the core points from the cells. Nodes are then core points if cells.by_point, else
 /// cells. Sets cells.node of every point to the node of its cluster. All noise has one extra node, numbered

@@ -34,7 +34,19 @@ struct Box {
     min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
     max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
   }
+  void extend(const Box& box) {
+    min = {std::min(min.x, box.min.x), std::min(min.y, box.min.y), std::min(min.z, box.min.z)};
+    max = {std::max(max.x, box.max.x), std::max(max.y, box.max.y), std::max(max.z, box.max.z)};
+  }
+  Point<T> sides() const { return {max.x - min.x, max.y - min.y, max.z - min.z}; }
 };
+
+/// Returns the axis along which the box is longest.
+template <typename T>
+T Point<T>::*longest_axis(const Box<T>& box) {
+  const Point<T> s = box.sides();
+  return s.x >= s.y && s.x >= s.z ? &Point<T>::x : s.y >= s.z ? &Point<T>::y : &Point<T>::z;
+}
 
 template <typename T>
 Box<T> box_of(const Point<T>* points, std::size_t count) {

@@ -65,8 +65,8 @@ namespace {
 // squares, and cells of linked points are at most two apart. Tolerances from 5.9e-23 to 7e-23 have it.
 constexpr float not_solid_r2 = 3 * std::numeric_limits<float>::denorm_min();
 
-// Returns 1 / side of the cells. The margin of 1e-6 covers the rounding of d2 (5 * 2^-24) and of the numbers of
-// cells near the origin (2^-23), so that points of one cell are linked. Denormal squares are rounded to
+// Returns 1 / side of the cells. The margin of 1e-6 covers the rounding of d2 (5 * 2^-24) and of the numbers
+// of cells near the origin (2^-23), so that points of one cell are linked. Denormal squares are rounded to
 // multiples of the smallest float. Those of the side are rounded to the largest multiple below r2 / 3.
 template <typename T>
 double inverse_cell_side(T r2) {

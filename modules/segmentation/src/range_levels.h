@@ -22,8 +22,8 @@ namespace pcl_bv::detail {
 ///
 /// Two points are linked if their distance is below the smaller of their tolerances, i.e. if they are linked
 /// at the level of one of them, and the other one is at this level or above. So the clusters are the union,
-/// over the levels, of the clusters of the points at the level and of the points above it that are not too far
-/// out to be linked to them. These are at most 4 log2(1.2 + 2 tolerance_per_metre) + 1 levels above.
+/// over the levels, of the clusters of the points at the level and of the points above it that are not too
+/// far out to be linked to them. These are at most 4 log2(1.2 + 2 tolerance_per_metre) + 1 levels above.
 template <typename T>
 class RangeLevels {
  public:
@@ -59,8 +59,8 @@ class RangeLevels {
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<Level> levels_;  // and one after the last, with no points
   std::size_t level_ = 0;
-  std::vector<Point<T>> sorted_;              // all points, by level
-  std::vector<std::uint32_t> position_;       // position of each of these in the list passed to start()
+  std::vector<Point<T>> sorted_;         // all points, by level
+  std::vector<std::uint32_t> position_;  // position of each of these in the list passed to start()
   std::vector<Point<T>> points_;
   std::vector<std::uint32_t> first_of_root_;  // for each root, the first point with this root
   UnionFind sets_;
