@@ -132,5 +132,56 @@ TEST(UprightBoxes, OfPartsAreThoseOfTheWholeOnEveryInstructionSet) {
   }
 }
 
+// The sides of a car of 4 x 2 m, with points every 5 cm at three heights: two sides or all four.
+TestCloud<double> sides_of_car(double yaw, int sides, double noise, std::uint64_t seed) {
+  TestCloud<double> cloud{"car", {}};
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  const auto add = [&](double x, double y) {
+    for (const double z : {0.0, 0.5, 1.0}) {
+      const Vector3d error = noise * Vector3d(normal(random), normal(random), 0);
+      for (const double c : Vector3d(yaw_turn(yaw) * (Vector3d(x, y, z) + error) + Vector3d(10, 5, 0)))
+        cloud.xyz.push_back(c);
+    }
+  };
+  for (int side = 0; side < sides / 2; ++side) {
+    for (int i = 0; i <= 80; ++i)
+      add(-2 + 0.05 * i, side == 0 ? -1 : 1);
+    for (int i = 0; i <= 40; ++i)
+      add(side == 0 ? -2 : 2, -1 + 0.05 * i);
+  }
+  return cloud;
+}
+
+TEST(UprightBoxes, LShapeHasTheYawOfPerpendicularLinesToAFractionOfADegree) {
+  for (const int sides : {2, 4}) {
+    for (const auto& [noise, largest_error] : {std::pair(0.0, 1e-6), std::pair(0.02, 0.3)}) {
+      for (int i = 0; i < 70; ++i) {
+        const double yaw = (0.3 + i * 90.0 / 70) * pi / 180;
+        const Obb box = fit(sides_of_car(yaw, sides, noise, 1 + i), ObbMethod::lshape);
+        const double quarters = (box.yaw() - yaw) / (pi / 2);
+        const double error = std::abs(quarters - std::round(quarters)) * 90;
+        EXPECT_LT(error, largest_error) << sides << " sides, noise " << noise << ", yaw " << yaw;
+        if (noise == 0) {
+          EXPECT_NEAR(4 * box.half_extents()[0] * box.half_extents()[1], 8, 1e-6) << yaw;
+        }
+      }
+    }
+  }
+}
+
+TEST(UprightBoxes, LShapeTurnsNoMoreThanTheCar) {
+  for (const double noise : {0.0, 0.02}) {
+    double before = 0;
+    for (int i = 0; i < 100; ++i) {
+      const double turned = fit(sides_of_car(0.6 + 0.1 * i * pi / 180, 2, noise, 7), ObbMethod::lshape).yaw();
+      if (i > 0) {
+        EXPECT_NEAR((turned - before) * 180 / pi, 0.1, noise == 0 ? 1e-6 : 0.15) << i;
+      }
+      before = turned;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pcl_bv::detail

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Upright boxes, either of minimum area or with the sides closest to the points (Zhang et al. 2017).
+// Upright boxes, either of minimum area or with the sides closest to the points (Zhang et al. 2017). The
+// angle of the latter is then fitted to the points near the sides by least squares.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -29,10 +30,13 @@ constexpr std::size_t kCoarseSteps = 20;  // steps of 3 to 6 degrees
 constexpr std::size_t kCoarsePoints = 512;
 constexpr std::size_t kFinePoints = 4096;
 constexpr int kStarts = 3;
-constexpr int kHalvings = 7;  // The last steps are of 0.02 to 0.05 degrees.
+constexpr int kHalvings = 5;  // The last steps are of 0.1 to 0.2 degrees.
+constexpr int kFits = 3;
+constexpr double kEnough = 0.95;  // the part of the closeness that a fit of the sides must retain
 
 // Distances of points from a side are treated as equal if they are below this fraction of the rectangle's
-// diagonal. For a car this limit is 12 cm.
+// diagonal. For a car this limit is 12 cm. So all angles within 1.5 degrees are equally good for the sides of
+// a car: fitted() chooses among them.
 constexpr double kNear = 1.0 / 40;
 
 // An evenly spaced sample of the cloud seen from above. Floats are precise enough, because the sample is only
@@ -85,9 +89,56 @@ class Closeness {
     return total;
   }
 
+  // Returns the angle of the rectangle whose sides have the smallest sum of squared distances from the points
+  // that are near the sides of the rectangle along `side`. Each point counts for its nearest side. The sides
+  // may be moved, but stay parallel or perpendicular.
+  Eigen::Vector2d fitted(const Sample& sample, const Eigen::Vector2d& side) const {
+    const Sides sides = sides_along(side);
+    std::array<Scatter, 4> of_side{};
+    for (std::size_t i = 0; i < sample.x.size(); ++i) {
+      const float x = sample.x[i], y = sample.y[i];
+      const float u = sides.x * x + sides.y * y, v = sides.x * y - sides.y * x;
+      const std::array<float, 4> d{u - sides.left, sides.right - u, v - sides.bottom, sides.top - v};
+      const auto nearest = static_cast<std::size_t>(std::min_element(d.begin(), d.end()) - d.begin());
+      if (d[nearest] * d[nearest] <= near_) of_side[nearest].add(x, y);
+    }
+    // The sum is a quadratic form of the unit vector, a x^2 + 2 b x y + c y^2.
+    double a = 0, b = 0, c = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Scatter s = of_side[i].about_mean();
+      a += i < 2 ? s.xx : s.yy;
+      b += i < 2 ? s.xy : -s.xy;
+      c += i < 2 ? s.yy : s.xx;
+    }
+    // It is smallest where twice the angle is opposite to (a - c, 2 b).
+    const double length = std::sqrt((a - c) * (a - c) + 4 * b * b);
+    if (!(length > 0)) return side;
+    const double cos2 = (c - a) / length, sin2 = -2 * b / length;
+    const double larger = std::sqrt((1 + std::abs(cos2)) / 2), smaller = sin2 / (2 * larger);
+    return cos2 > 0 ? Eigen::Vector2d(larger, smaller) : Eigen::Vector2d(smaller, larger);
+  }
+
  private:
   struct Sides {
     float x, y, left, right, bottom, top;
+  };
+
+  // Sums over points.
+  struct Scatter {
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+
+    void add(double px, double py) {
+      n += 1;
+      x += px;
+      y += py;
+      xx += px * px;
+      xy += px * py;
+      yy += py * py;
+    }
+    Scatter about_mean() const {
+      if (n == 0) return {};
+      return {n, 0, 0, xx - x * x / n, xy - x * y / n, yy - y * y / n};
+    }
   };
 
   Sides sides_along(const Eigen::Vector2d& side) const {
@@ -130,6 +181,16 @@ AngleScore refined(AngleScore best, const Closeness& closeness, const Sample& sa
   return best;
 }
 
+// Fits the sides to the points near them, again and again, since a point may come near or change its side.
+Eigen::Vector2d fitted(Eigen::Vector2d side, double value, const Closeness& closeness, const Sample& sample) {
+  for (int fit = 0; fit < kFits; ++fit) {
+    const Eigen::Vector2d next = closeness.fitted(sample, side);
+    if (!(closeness(sample, next) >= kEnough * value)) break;
+    side = next;
+  }
+  return side;
+}
+
 }  // namespace
 
 Eigen::Matrix3d yaw_axes(const PointView& points, const Supports& supports, const LocalFrame& frame,
@@ -160,7 +221,7 @@ Eigen::Matrix3d lshape_axes(const PointView& points, const Supports& supports, c
     const AngleScore score = refined(scores[k], closeness, fine);
     if (score.closeness > best.closeness) best = score;
   }
-  return ground.axes_along(direction(best.t));
+  return ground.axes_along(fitted(direction(best.t), best.closeness, closeness, fine));
 }
 
 }  // namespace pcl_bv::detail

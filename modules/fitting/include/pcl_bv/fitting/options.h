@@ -67,7 +67,8 @@ enum class ObbMethod : std::uint8_t {
   /// Axis 2 is up, and the area seen from above is the minimum.
   yaw,
   /// Axis 2 is up, and the points seen from above are as close as possible to the box's sides (Zhang et al.
-  /// 2017). For vehicles of which a LiDAR sees two sides. For such vehicles, `yaw` often gives a wrong angle.
+  /// 2017). The angle is that of the sides by least squares. For vehicles of which a LiDAR sees two sides. For
+  /// such vehicles, `yaw` often gives a wrong angle.
   lshape
 };
 
