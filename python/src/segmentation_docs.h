@@ -32,8 +32,9 @@ with min_points, of DBSCAN, computed by exact cells.
 
 points: as for fit(). Points that are not finite are in no cluster.
 min_size, max_size: clusters with fewer or more points are dropped and counted; None: no limit.
-min_points: the core condition of DBSCAN. A core point has at least min_points points within the tolerance,
-    itself included. Points that are neither core points nor within the tolerance of a core point are noise.
+min_points: the core condition of DBSCAN. A core point has at least min_points points nearer than the
+    tolerance, itself included. Points that are neither core points nor nearer than the tolerance to one are
+    noise. Points at exactly the tolerance are not linked (scikit-learn's DBSCAN links them).
 tolerance_per_metre: growth of the tolerance per metre of distance from the origin.
 oversized: treatment of clusters with more than max_size points: 'drop', 'keep', or 'split' with half the
     tolerance.

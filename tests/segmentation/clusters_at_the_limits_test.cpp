@@ -48,14 +48,31 @@ TEST(ClustersAtTheLimits, AreExactOnDiagonalsAsLongAsTheTolerance) {
   }
 }
 
-TEST(ClustersAtTheLimits, AreExactWhereCellsAreTooFarAwayToBeCounted) {
-  // From 2^40 cells on numbers go by the bits of a double.
+TEST(ClustersAtTheLimits, AreExactWhereCellNumbersAreRounded) {
+  // From 2^28 cells on numbers are computed without rounding; from 2^53 on they go by the bits of a double.
   const double side = 1 / (std::sqrt(3.0) * (1 + 1e-6));
-  for (const double sign : {1.0, -1.0}) {
-    for (int k = -40; k <= 40; ++k) {
-      const double x = sign * (0x1p40 + 0.1 * k) * side;
-      expect_exact<double>({{x, 0, 0}, {x + 0.7, 0, 0}, {x + 1.9, 0, 0}, {x - 0.9, 0.3, 0}}, 1.F);
+  for (const double cells : {0x1p28, 0x1p40, 0x1p52, 0x1p53, 0x1p54}) {
+    const double step = std::max(1.0, cells * 0x1p-53);
+    for (const double sign : {1.0, -1.0}) {
+      for (int k = -40; k <= 40; ++k) {
+        const double x = sign * (cells + 0.1 * step * k) * side;
+        expect_exact<double>(
+            {{x, 0, 0}, {x + 0.7 * step, 0, 0}, {x + 1.9 * step, 0, 0}, {x - 0.9 * step, 0.3, 0}}, 1.F);
+      }
     }
+  }
+}
+
+TEST(ClustersAtTheLimits, AreExactFarFromTheOriginAndFromEachOther) {
+  for (const double far : {1e9, 3e11, 1e15, 1e20}) {
+    SCOPED_TRACE(far);
+    Cloud<double> cloud = uniform_cloud(300, 2.0, 24, {far, -7 * far, far / 3});
+    for (const auto& p : uniform_cloud(300, 2.0, 25))
+      cloud.push_back(p);
+    for (const auto& p : uniform_cloud(100, far, 26))
+      cloud.push_back(p);
+    for (const float r : {1e-5F, 0.3F, 2.F})
+      expect_exact(cloud, r);
   }
 }
 

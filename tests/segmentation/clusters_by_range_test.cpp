@@ -99,6 +99,25 @@ TYPED_TEST(ClustersByRange, EqualTheirDefinition) {
   }
 }
 
+// Each magnitude from 10^-12 to 10^24 has some points, so most levels have.
+TYPED_TEST(ClustersByRange, EqualTheirDefinitionAtEveryMagnitude) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> exponent(-12, 24), side(-1, 1);
+  Cloud<TypeParam> cloud;
+  for (int i = 0; i < 500; ++i) {
+    const double scale = std::pow(10, exponent(random));
+    cloud.push_back({});
+    for (TypeParam& c : cloud.back())
+      c = static_cast<TypeParam>(scale * side(random));
+  }
+  for (const float tolerance : {1e-6F, 0.5F, 1e6F}) {
+    for (const float per_metre : {1e-9F, 0.02F, 0.7F, 5.F, 1e6F}) {
+      SCOPED_TRACE(testing::Message() << tolerance << ", per metre " << per_metre);
+      EXPECT_EQ(by_range(cloud, tolerance, per_metre), definition(cloud, tolerance, per_metre));
+    }
+  }
+}
+
 TYPED_TEST(ClustersByRange, OfNoGrowthAreThoseOfTheToleranceAlone) {
   const Cloud<TypeParam> cloud = fan<TypeParam>(900, 11);
   EXPECT_EQ(by_range(cloud, 1.5F, 0.0F), test::brute_force(cloud, 1.5F));

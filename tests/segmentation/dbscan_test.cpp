@@ -50,6 +50,23 @@ TEST(Dbscan, EqualsItsDefinitionOnRandomPoints) {
   }
 }
 
+// Cells with more than 64 points, and one with more than 1024, are searched through a tree of boxes.
+TEST(Dbscan, EqualsItsDefinitionWhereCellsHaveTreesOfBoxes) {
+  Cloud<double> cloud = uniform_cloud(1100, 0.05, 3);
+  for (const auto& p : uniform_cloud(1900, 0.4, 4))
+    cloud.push_back(p);
+  for (int i = 0; i < 100; ++i)
+    cloud.push_back(cloud[static_cast<std::size_t>(7 * i)]);
+  for (const std::size_t min_points : {10U, 100U, 900U, 1500U, 2500U})
+    expect_dbscan(cloud, 0.3F, min_points);
+}
+
+TEST(Dbscan, CountsNoPointAtExactlyTheTolerance) {
+  const Cloud<float> line{{0, 0, 0}, {0.5F, 0, 0}, {1, 0, 0}};
+  EXPECT_EQ(dbscan(view_of(line), 0.5F, 2).noise_points, 3U);
+  EXPECT_EQ(dbscan(view_of(line), std::nextafter(0.5F, 1.F), 2).size(), 1U);
+}
+
 TEST(Dbscan, EqualsItsDefinitionWhereCellsHoldManyPoints) {
   Cloud<float> cloud = uniform_cloud(900, 0.3F, 1);
   for (const auto& p : uniform_cloud(300, 2.F, 2))

@@ -37,20 +37,30 @@ std::size_t count_valid(const PointView& points) {
 
 }  // namespace
 
-// Returns the position of the class in groups_; inserts the class if it is new.
-std::size_t ClassClusterer::group_of(std::int64_t value) {
-  const auto at = std::lower_bound(groups_.begin(), groups_.end(), value,
-                                   [](const Group& group, std::int64_t v) { return group.value < v; });
-  const auto position = static_cast<std::size_t>(at - groups_.begin());
-  if (at == groups_.end() || at->value != value) groups_.insert(at, {value, 0, 0});
-  return position;
+// Makes a group for each class.
+void ClassClusterer::make_groups(const PointView& points, const std::vector<std::int64_t>& classes) {
+  values_.clear();
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const std::int64_t value = class_of_point(classes, points.index(i));
+    if (values_.empty() || values_.back() != value) values_.push_back(value);
+  }
+  std::sort(values_.begin(), values_.end());
+  values_.erase(std::unique(values_.begin(), values_.end()), values_.end());
+  groups_.clear();
+  for (const std::int64_t value : values_)
+    groups_.push_back({value, 0, 0});
+}
+
+ClassClusterer::Group& ClassClusterer::group_of(std::int64_t value) {
+  return groups_[static_cast<std::size_t>(std::lower_bound(values_.begin(), values_.end(), value) -
+                                          values_.begin())];
 }
 
 // Writes the point indices to numbers_, ordered by class, and within a class in the order of the view.
 void ClassClusterer::sort_points(const PointView& points, const std::vector<std::int64_t>& classes) {
-  groups_.clear();
+  make_groups(points, classes);
   for (std::size_t i = 0; i < points.count; ++i)
-    ++groups_[group_of(class_of_point(classes, points.index(i)))].count;
+    ++group_of(classes[points.index(i)]).count;
   std::size_t end = 0;
   for (Group& group : groups_) {
     group.end = end;
@@ -59,7 +69,7 @@ void ClassClusterer::sort_points(const PointView& points, const std::vector<std:
   numbers_.resize(end);
   for (std::size_t i = 0; i < points.count; ++i) {
     const std::size_t index = points.index(i);
-    numbers_[groups_[group_of(classes[index])].end++] = static_cast<std::int32_t>(index);
+    numbers_[group_of(classes[index]).end++] = static_cast<std::int32_t>(index);
   }
 }
 

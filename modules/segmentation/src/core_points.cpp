@@ -30,39 +30,6 @@ struct CoreSearch {
   std::size_t min_points;
   bool solid;
 
-  // Calls test(begin, end) for the positions of a run, split at multiples of group_size. Skips the points of
-  // a box if skip(box, number of points) is true. Takes the nearer half of a box first. Stops and returns
-  // false when test() returns false.
-  template <typename Skip, typename Test>
-  bool by_box(const PositionRange& run, const Point<T>& p, const Skip& skip, const Test& test) const {
-    for (std::uint32_t i = run.begin; i < run.end;) {
-      const std::uint32_t group_end = (i / group_size + 1) * group_size;
-      std::uint32_t end = std::min(run.end, group_end);
-      if (i + group_size != end) {
-        if (!test(i, end)) return false;
-      } else {
-        std::size_t level = 0;  // the largest box that begins at i and ends within the run
-        for (std::uint32_t size = 2 * group_size; i % size == 0 && size <= run.end - i; size *= 2, ++level)
-          end = i + size;
-        if (!in_box(level, i / (end - i), p, skip, test)) return false;
-      }
-      i = end;
-    }
-    return true;
-  }
-
-  template <typename Skip, typename Test>
-  bool in_box(std::size_t level, std::uint32_t box, const Point<T>& p, const Skip& skip,
-              const Test& test) const {
-    if (skip(scratch.boxes[level][box], group_size << level)) return true;
-    if (level == 0) return test(box * group_size, (box + 1) * group_size);
-    const Box<T> at{p, p};
-    const Box<T>* const halves = &scratch.boxes[level - 1][2 * std::size_t{box}];
-    const bool swap = min_squared_distance(at, halves[1]) < min_squared_distance(at, halves[0]);
-    const std::uint32_t near = 2 * box + (swap ? 1 : 0);
-    return in_box(level - 1, near, p, skip, test) && in_box(level - 1, near ^ 1U, p, skip, test);
-  }
-
   // Returns how many points of a run are linked to p. May stop counting when at least `needed` are found.
   std::size_t count(const PositionRange& run, const Point<T>& p, std::size_t needed) const {
     const Box<T> at{p, p};
@@ -73,7 +40,7 @@ struct CoreSearch {
       found += points;
       return true;
     };
-    by_box(run, p, skip, [&](std::uint32_t begin, std::uint32_t end) {
+    scratch.boxes.visit(run, p, skip, [&](std::uint32_t begin, std::uint32_t end) {
       const PositionRange part{begin, end};
       found += scratch.columns.count_linked(&part, 1, p, r2, needed);
       return found < needed;
@@ -161,7 +128,7 @@ std::uint32_t nearest_core(const CoreSearch<T>& search, const Point<T>& p, const
   T min_d2 = search.r2;
   std::uint32_t nearest = noise;
   const auto search_run = [&](const PositionRange& run) {
-    search.by_box(
+    scratch.boxes.visit(
         run, p, [&](const Box<T>& box, std::uint32_t) { return min_squared_distance(at, box) > min_d2; },
         [&](std::uint32_t begin, std::uint32_t end) {
           for (std::uint32_t i = begin; i < end; ++i) {
@@ -205,24 +172,6 @@ void label_border(const CoreSearch<T>& search, std::size_t number, FindAround fi
   }
 }
 
-// Sorts points, which are at consecutive positions from `begin` on, so that the points of a box are near each
-// other: splits them at the position where the largest boxes end, along the longest side of their box.
-template <typename T>
-void sort_for_boxes(NumberedPoint<T>* points, std::uint32_t begin, std::uint32_t end) {
-  const std::uint32_t size = std::bit_floor(begin ^ (end - 1));
-  if (size < group_size) return;
-  const std::uint32_t middle = (end - 1) & ~(size - 1);
-  Box<T> box{points->point, points->point};
-  for (std::uint32_t i = 0; i < end - begin; ++i)
-    box.extend(points[i].point);
-  const auto axis = longest_axis(box);
-  NumberedPoint<T>* const half = points + (middle - begin);
-  std::nth_element(points, half, points + (end - begin),
-                   [axis](const auto& p, const auto& q) { return p.point.*axis < q.point.*axis; });
-  sort_for_boxes(points, begin, middle);
-  sort_for_boxes(half, middle, end);
-}
-
 // Sorts the points of cells with more than `few` points.
 template <typename T>
 void sort_large_cells(std::uint32_t few, Cells<T>& cells, CoreScratch<T>& scratch) {
@@ -234,28 +183,10 @@ void sort_large_cells(std::uint32_t few, Cells<T>& cells, CoreScratch<T>& scratc
       scratch.large_cell.push_back({cells.points[i], scratch.number[i]});
     sort_for_boxes(scratch.large_cell.data(), range.begin, range.end);
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
-      const NumberedPoint<T>& p = scratch.large_cell[i - range.begin];
+      const CellPoint<T>& p = scratch.large_cell[i - range.begin];
       cells.points[i] = p.point;
       scratch.number[i] = p.number;
       cells.node[p.number] = i;
-    }
-  }
-}
-
-// Sets boxes[0], from which the function makes the larger boxes, to box(g) for each group g of points.
-template <typename T, typename BoxOfGroup>
-void make_boxes(const Cells<T>& cells, const BoxOfGroup& box, CoreScratch<T>& scratch) {
-  const std::size_t groups = cells.points.size() / group_size;
-  scratch.boxes.resize(std::max<std::size_t>(std::bit_width(groups), 1));
-  scratch.boxes[0].resize(groups);
-  for (std::size_t g = 0; g < groups; ++g)
-    scratch.boxes[0][g] = box(g);
-  for (std::size_t level = 1; level < scratch.boxes.size(); ++level) {
-    const std::vector<Box<T>>& halves = scratch.boxes[level - 1];
-    scratch.boxes[level].resize(halves.size() / 2);
-    for (std::size_t i = 0; i < scratch.boxes[level].size(); ++i) {
-      Box<T>& whole = scratch.boxes[level][i] = halves[2 * i];
-      whole.extend(halves[2 * i + 1]);
     }
   }
 }
@@ -264,18 +195,15 @@ void make_boxes(const Cells<T>& cells, const BoxOfGroup& box, CoreScratch<T>& sc
 template <typename T>
 void make_core_boxes(const Cells<T>& cells, CoreScratch<T>& scratch) {
   constexpr T largest = std::numeric_limits<T>::max();
-  make_boxes(
-      cells,
-      [&](std::size_t g) {
-        const auto core = scratch.core.begin() + static_cast<std::ptrdiff_t>(g * group_size);
-        if (std::find(core, core + group_size, std::uint8_t{0}) == core + group_size)
-          return scratch.boxes[0][g];
-        Box<T> box{{largest, largest, largest}, {-largest, -largest, -largest}};
-        for (std::size_t i = 0; i < group_size; ++i)
-          if (core[static_cast<std::ptrdiff_t>(i)] != 0) box.extend(cells.points[g * group_size + i]);
-        return box;
-      },
-      scratch);
+  scratch.boxes.make(cells.points.size() / group_size, [&](std::size_t g) {
+    const auto core = scratch.core.begin() + static_cast<std::ptrdiff_t>(g * group_size);
+    if (std::find(core, core + group_size, std::uint8_t{0}) == core + group_size)
+      return scratch.boxes.of_group(g);
+    Box<T> box{{largest, largest, largest}, {-largest, -largest, -largest}};
+    for (std::size_t i = 0; i < group_size; ++i)
+      if (core[static_cast<std::ptrdiff_t>(i)] != 0) box.extend(cells.points[g * group_size + i]);
+    return box;
+  });
 }
 
 template <typename T>
@@ -292,9 +220,8 @@ void start_scratch(std::size_t min_points, Cells<T>& cells, CoreScratch<T>& scra
   // searched.
   sort_large_cells(min_points > 2 * group_size ? 2 * group_size : few_points, cells, scratch);
   scratch.columns.assign(cells.points);
-  make_boxes(
-      cells, [&](std::size_t g) { return box_of(cells.points.data() + g * group_size, group_size); },
-      scratch);
+  scratch.boxes.make(points / group_size,
+                     [&](std::size_t g) { return box_of(cells.points.data() + g * group_size, group_size); });
 }
 
 }  // namespace

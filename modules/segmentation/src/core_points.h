@@ -11,17 +11,11 @@
 #include "cells.h"
 #include "count_linked.h"
 #include "pcl_bv/parallel/execution.h"
+#include "point_boxes.h"
 
 namespace pcl_bv::detail {
 
-/// A point and its index in the input of make_cells().
-template <typename T>
-struct NumberedPoint {
-  Point<T> point;
-  std::uint32_t number;
-};
-
-/// Buffers that calls reuse. They take about 22 (float) or 35 (double) bytes per point and 16 bytes per
+/// Buffers that calls reuse. They take about 23 (float) or 37 (double) bytes per point and 16 bytes per
 /// block. A position is a position in Cells::points.
 template <typename T>
 struct CoreScratch {
@@ -32,16 +26,10 @@ struct CoreScratch {
   /// For each position of a border point, the position of its core point. For each position of a core point,
   /// its node, which remove_non_core() sets.
   std::vector<std::uint32_t> label;
-  /// A tree of boxes. Element g of boxes[k] is the box of the points of Cells::points from position g * s to
-  /// (g + 1) * s, with s = group_size * 2^k. Points that fill no whole s at the end have no box.
-  std::vector<std::vector<Box<T>>> boxes;
-  std::vector<NumberedPoint<T>> large_cell;  ///< Copy of the points of one cell.
-  PointColumns<T> columns;                   ///< Of Cells::points.
+  PointBoxes<T> boxes;                   ///< Of all points, then of the core points.
+  std::vector<CellPoint<T>> large_cell;  ///< Copy of the points of one cell.
+  PointColumns<T> columns;               ///< Of Cells::points.
 };
-
-/// Number of consecutive positions in a group with a common box. Cells with very many points are tested box
-/// by box.
-inline constexpr std::uint32_t group_size = 32;
 
 /// Number of points up to which all points of the cells around are compared, instead of those of some boxes.
 inline constexpr std::uint32_t few_points = 1024;
@@ -53,7 +41,7 @@ inline constexpr std::uint32_t few_points = 1024;
 /// `cells` must be made with Cells::by_point = true. `solid` means that all points of a cell are linked. Then
 /// the points of a cell with min_points or more points are core points without a test.
 ///
-/// Reorders the points of cells with more than few_points points, so that boxes hold points near each other.
+/// Reorders the points of large cells, so that boxes hold points near each other.
 template <typename T, typename Key>
 void find_core(const CellGrid& grid, T r2, std::size_t min_points, bool solid, const ParallelPolicy& policy,
                const std::vector<Key>& keys, Cells<T>& cells, CoreScratch<T>& scratch);

@@ -98,7 +98,7 @@ void visit_cluster(Cluster& c, Visit&& visit) {
   visit(S{"cluster.max_size", "points", "Drop objects of more points",
           {1, kNoLimit}, {}, "--max-size", "N"}, c.max_size);
   visit(S{"cluster.min_points", "points; 1: no noise",
-          "Drop noise: points that are not within the tolerance of a core point",
+          "Drop noise: points that are not nearer than the tolerance to a core point",
           {1, kNoLimit}, {}, "--min-points", "N"}, c.min_points);
   visit(S{"cluster.tolerance_per_metre", "m per m",
           "The tolerance grows by this with the distance from the origin",

@@ -60,7 +60,8 @@ struct ClusterOptions {
   /// Clusters with more points are treated as `oversized` says.
   std::size_t max_size = std::numeric_limits<std::size_t>::max();
   /// Number of points in the core condition of DBSCAN, >= 1. A point is a core point if at least this number
-  /// of points, itself included, are nearer than the tolerance. With 1 every point is a core point.
+  /// of points, itself included, are nearer than the tolerance. With 1 every point is a core point. Points at
+  /// exactly the tolerance do not count, as in PCL. Ester et al. and scikit-learn count them (<=).
   std::size_t min_points = 1;
   /// Growth of the tolerance for each unit of distance from `range_origin`, for sensors whose points are
   /// sparser farther out. Finite and >= 0; must be 0 if min_points is above 1.
@@ -100,13 +101,15 @@ struct Clusters : IndexLists {
 ///
 /// The method is exact grid DBSCAN (Gunawan 2013, Gan and Tao 2015). Points in the same cell are linked,
 /// because the side of a cell is just under tolerance / sqrt(3). Union-find joins cells that are at most two
-/// cells apart. The cost is O(n) for usual sensor data, whatever the number of neighbours. It is O(n^1.5) if
-/// dense sheets are just farther apart than the tolerance. With min_points > 1 there are at most O(n *
-/// min_points) more distance tests.
+/// cells apart. The cost is O(n) for usual sensor data, whatever the number of neighbours, and O(n log n) if
+/// points are very far from each other. It is O(n^1.5) if dense sheets are just farther apart than the
+/// tolerance. Clouds made to be slow may cost more: no exact method in O(n log n) is known for them (Gan and
+/// Tao 2015). With min_points > 1 there are at most O(n * min_points) more distance tests. In dense cells,
+/// boxes of points replace most of them, so that there are about O(n^(5/3)) if min_points grows with n.
 ///
-/// With tolerance_per_metre > 0 there is one pass for each tolerance that a point may have. Each pass links
-/// points whose tolerance is at least that of the pass. For example, a tolerance of 0.3 m and a
-/// tolerance_per_metre of 0.01 take nine passes for points within 110 m.
+/// With tolerance_per_metre > 0 there is one pass for each tolerance that a point has. Each pass links the
+/// points of this tolerance to each other, and to points farther out that are near enough. A point takes part
+/// in at most 4 log2(1.2 + 2 tolerance_per_metre) + 2 passes, mostly in two.
 class EuclideanClusterer {
  public:
   /// Allocates nothing until the first extract().
@@ -123,7 +126,7 @@ class EuclideanClusterer {
   /// points. Steps over blocks of 64 cells use one thread for at most 256 blocks.
   ///
   /// The object retains its memory for later calls: about 50 bytes per point and 150 bytes per block. With
-  /// min_points > 1 it retains about 22 (float) or 35 (double) bytes per point and 16 bytes per block more.
+  /// min_points > 1 it retains about 23 (float) or 37 (double) bytes per point and 16 bytes per block more.
   /// For 2^18 or more blocks, each call frees most of the memory for blocks before it returns.
   ///
   /// Throws std::invalid_argument if an option is outside its range or min_size > max_size, and

@@ -43,11 +43,13 @@ class ClassClusterer {
     std::size_t count, end;
   };
 
-  std::size_t group_of(std::int64_t value);
+  void make_groups(const PointView& points, const std::vector<std::int64_t>& classes);
+  Group& group_of(std::int64_t value);
   void sort_points(const PointView& points, const std::vector<std::int64_t>& classes);
 
   EuclideanClusterer clusterer_;
-  std::vector<Group> groups_;          // ascending by value
+  std::vector<std::int64_t> values_;   // the classes, ascending
+  std::vector<Group> groups_;          // of each of these
   std::vector<std::int32_t> numbers_;  // point indices, ordered by class
   Clusters found_, all_;
   std::vector<std::int64_t> found_class_;
