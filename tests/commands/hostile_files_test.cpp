@@ -101,7 +101,7 @@ TEST_F(HostileFiles, SinksThatAreOpenedInVainLeaveNothing) {
       stream.program = "bv_stream";
       const std::string old = file("old.jsonl", "kept");
       const Result result = run({"--source", "synth:street-sequence:1", "--sink", "jsonl:" + old, "--sink",
-                                 good + ":" + at("new/folder/of"), "--sink", wrong},
+                                 good + ":" + at("new"), "--sink", wrong},
                                 stream);
       expect_refused(result, 1, wrong.substr(0, wrong.find(':')) + ":");
       EXPECT_FALSE(std::filesystem::exists(at("new"))) << good << " before " << wrong;

@@ -201,14 +201,23 @@ TEST_F(AtomicFile, IsWrittenByTheFunctionItselfIfItIsADevice) {
   EXPECT_TRUE(fs::is_character_file(null));
 }
 
-TEST_F(AtomicFile, ItsFoldersAreMadeWhereTheyAreMissing) {
-  create_parent_folders(file("new/folder/a"));
-  EXPECT_TRUE(fs::is_directory(file("new/folder")));
-  EXPECT_FALSE(fs::exists(file("new/folder/a")));
-  create_parent_folders(file("new/folder/b"));
-  create_parent_folders("plain");
+TEST_F(AtomicFile, AFolderIsCreatedOnlyInAFolderThatExists) {
+  for (const char* name : {"new", "new", "other/"}) {
+    create_folder(file(name));
+    EXPECT_TRUE(fs::is_directory(file(name)));
+  }
+  EXPECT_THROW(create_folder(file("missing/folder")), IoError);
+  EXPECT_FALSE(fs::exists(file("missing")));
   write_text(file("blocked"), "old");
-  EXPECT_THROW(create_parent_folders(file("blocked/folder/a")), IoError);
+  EXPECT_THROW(create_folder(file("blocked")), IoError);
+  EXPECT_THROW(create_folder(file("blocked/folder")), IoError);
+  create_folder_of(file("third/a"));
+  create_folder_of(file("third/b"));
+  create_folder_of("plain");
+  EXPECT_TRUE(fs::is_directory(file("third")));
+  for (const char* name : {"missing/folder/a", "blocked/folder/a"})
+    EXPECT_THROW(create_folder_of(file(name)), IoError) << name;
+  EXPECT_FALSE(fs::exists(file("missing")));
 }
 
 TEST_F(AtomicFile, AReaderSeesTheOldOrTheNewContentNeverAPart) {

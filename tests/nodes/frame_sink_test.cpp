@@ -361,11 +361,11 @@ TEST_F(FrameSinks, OpenedInVainLeaveWhatWasThere) {
 
 TEST_F(FrameSinks, OpenedInVainRemoveWhatTheyMadeAndNothingElse) {
   const auto at = [&](const char* name) { return (path_ / name).string(); };
-  EXPECT_NE(open_in_vain({"mcap:" + at("new/a.mcap"), "rosbag2:" + at("drive/one"), "labels:" + at("labels"),
-                          "vtp:" + at("vtp/deep"), "csv:" + at("csv/a.csv"), "image:" + at("shared")},
+  EXPECT_NE(open_in_vain({"mcap:" + at("a.mcap"), "rosbag2:" + at("drive"), "labels:" + at("labels"),
+                          "vtp:" + at("vtp"), "csv:" + at("a.csv"), "image:" + at("shared")},
                          [&] { write("shared/another.png", "of another process"); }),
             "");
-  for (const char* name : {"new", "drive", "labels", "vtp", "csv"})
+  for (const char* name : {"a.mcap", "drive", "labels", "vtp", "a.csv"})
     EXPECT_FALSE(std::filesystem::exists(path_ / name)) << name;
   EXPECT_EQ(read("shared/another.png"), "of another process");
 }

@@ -199,16 +199,17 @@ fs::path follow_links(fs::path path) {
 }
 
 void create_folder(const fs::path& folder) {
+  const fs::path without_slash = folder.has_filename() ? folder : folder.parent_path();
   std::error_code failure;
-  fs::create_directories(folder, failure);
+  fs::create_directory(without_slash, failure);
   if (!failure && !fs::is_directory(folder, failure))
     failure = std::make_error_code(std::errc::not_a_directory);
   if (failure) throw IoError("cannot create this folder: " + system_reason(failure.value()));
 }
 
-void create_parent_folders(const fs::path& file) {
+void create_folder_of(const fs::path& file) {
   std::error_code failure;
-  if (file.has_parent_path()) fs::create_directories(file.parent_path(), failure);
+  if (file.has_parent_path()) fs::create_directory(file.parent_path(), failure);
   if (failure) throw IoError("cannot create its folder: " + system_reason(failure.value()));
 }
 

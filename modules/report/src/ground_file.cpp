@@ -83,7 +83,7 @@ void write_ground(const FileSink& sink, const GroundFileHeader& header, const Lo
 void write_ground_file(const std::filesystem::path& path, FileLife life, const GroundFileHeader& header,
                        const LowestPoints& lowest) {
   if (life == FileLife::lasting) {
-    create_parent_folders(path);
+    create_folder_of(path);
     write_file_atomically(path, [&](const FileSink& sink) { write_ground(sink, header, lowest); });
     return;
   }

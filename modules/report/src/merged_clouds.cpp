@@ -142,7 +142,7 @@ MergedClouds parse_merged_clouds(std::string_view content) {
 }
 
 void write_partial_file(const std::filesystem::path& path, const MergedClouds& clouds) {
-  create_parent_folders(path);
+  create_folder_of(path);
   write_file_atomically(path, merged_clouds_content(clouds));
 }
 

@@ -111,7 +111,7 @@ void write_object_file(const std::filesystem::path& path, FileLife life,
     make(file);
   };
   if (life == FileLife::temporary) return make_new(path);
-  create_parent_folders(path);
+  create_folder_of(path);
   replace_file_atomically(path, make_new);
 }
 
@@ -268,7 +268,7 @@ void ObjectFile::mark_ground(std::size_t first, std::vector<std::uint8_t>& groun
 
 void join_object_files(const std::filesystem::path& path,
                        const std::vector<std::unique_ptr<ObjectFile>>& shares) {
-  create_parent_folders(path);
+  create_folder_of(path);
   write_file_atomically(path, [&](const FileSink& sink) {
     std::vector<std::byte> block;
     for (const auto& share : shares) {

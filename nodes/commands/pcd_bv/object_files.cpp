@@ -54,7 +54,7 @@ Status write_objects(const std::filesystem::path& folder, std::size_t count, con
                      const std::function<void(std::size_t id)>& write) {
   try {
     try {
-      create_parent_folders(folder / "0.pcd");
+      create_folder(folder);
     } catch (const IoError& error) {
       throw IoError(folder.string() + ": " + error.what());
     }

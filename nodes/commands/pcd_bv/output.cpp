@@ -93,7 +93,6 @@ bool ReportWriter::add(std::string&& piece, bool goes_on) {
 bool ReportWriter::finish() {
   const bool read = begin() && write(surrounding_texts(format_).end);
   if (!file_) return read;
-  create_parent_folders(*file_);
   write_file_atomically(*file_, std::vector<std::string_view>(pending_.begin(), pending_.end()));
   return true;
 }

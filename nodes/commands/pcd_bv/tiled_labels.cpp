@@ -34,7 +34,7 @@ RawCloud load_tile(const Tiles& tiles, std::size_t tile, std::size_t points) {
 void write_labelled(const std::filesystem::path& path, RawCloud cloud,
                     const std::vector<std::uint32_t>& labels) {
   set_uint32_field(cloud, "label", labels);
-  create_parent_folders(path);
+  create_folder(path.parent_path());
   write_pcd(path, cloud);
 }
 

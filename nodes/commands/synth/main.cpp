@@ -125,10 +125,7 @@ void write_scene(const std::string& scene, const std::filesystem::path& output) 
   } else if (is_rig_sequence(scene)) {
     const RigSequence spec = parse_rig_sequence(scene);
     require_suffix(output, ".mcap");
-    naming(output, [&] {
-      create_parent_folders(output);
-      write_rig_recording(spec, output);
-    });
+    naming(output, [&] { write_rig_recording(spec, output); });
   } else if (is_town(scene)) {
     const TownSequence spec = parse_town(scene);
     naming(output, [&] { create_folder(output); });
@@ -136,10 +133,7 @@ void write_scene(const std::string& scene, const std::filesystem::path& output) 
   } else {
     const SynthOptions spec = parse_synth(scene);
     require_suffix(output, ".pcd");
-    naming(output, [&] {
-      create_parent_folders(output);
-      write_pcd(output, to_raw_cloud(make_synth(spec)));
-    });
+    naming(output, [&] { write_pcd(output, to_raw_cloud(make_synth(spec))); });
   }
 }
 

@@ -7,13 +7,10 @@
 
 #include <cerrno>
 
-#include "pcl_bv/io/atomic_file.h"
-
 namespace pcl_bv::detail {
 
 LineFile::LineFile(const std::filesystem::path& file) {
   if (file == "-") return;
-  create_parent_folders(file);
   file_.emplace(file);
 }
 

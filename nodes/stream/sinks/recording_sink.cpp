@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "pcl_bv/io/atomic_file.h"
 #include "pcl_bv/messages/schema.h"
 #include "pcl_bv/recording/mcap_writer.h"
 #include "pcl_bv/recording/rosbag2_writer.h"
@@ -53,20 +52,11 @@ std::unique_ptr<FrameSink> open_recording_sink(const SinkOptions& description) {
   return make_message_sink(std::make_unique<Recorder>(std::make_unique<Writer>(description.target)), topics);
 }
 
-std::unique_ptr<FrameSink> open_mcap_sink(const SinkOptions& description) {
-  create_parent_folders(description.target);
-  return open_recording_sink<McapWriter>(description);
-}
-
-std::unique_ptr<FrameSink> open_rosbag2_sink(const SinkOptions& description) {
-  return open_recording_sink<Rosbag2Writer>(description);
-}
-
 }  // namespace
 
 std::vector<SinkKind> recording_sinks() {
-  return {{"mcap", "FILE[,points][,moveit][,nav2][,vision]", "", open_mcap_sink},
-          {"rosbag2", "FOLDER[,points][,moveit][,nav2][,vision]", "", open_rosbag2_sink}};
+  return {{"mcap", "FILE[,points][,moveit][,nav2][,vision]", "", open_recording_sink<McapWriter>},
+          {"rosbag2", "FOLDER[,points][,moveit][,nav2][,vision]", "", open_recording_sink<Rosbag2Writer>}};
 }
 
 }  // namespace pcl_bv::detail

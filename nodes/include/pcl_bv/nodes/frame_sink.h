@@ -100,11 +100,12 @@ SinkOptions parse_sink(const std::string& description);
 
 /// Opens a sink.
 ///
-/// Files, recordings and folders are created if they do not exist. The first frame or close() empties an
-/// existing file or recording. After each frame, also after one that did not fit on the disk, jsonl, csv and
-/// kitti files hold whole lines, mcap files whole chunks, and frames.pvd (vtp) lists the frames so far. Files
-/// of single frames (vtp, image, labels) are named by FrameHeader::number. Files and recordings are locked
-/// while they are written. The folders of rosbag2, image and labels are locked against other processes.
+/// Files, recordings and folders are created if they do not exist, in a folder that exists. The first frame or
+/// close() empties an existing file or recording. After each frame, also after one that did not fit on the
+/// disk, jsonl, csv and kitti files hold whole lines, mcap files whole chunks, and frames.pvd (vtp) lists the
+/// frames so far. Files of single frames (vtp, image, labels) are named by FrameHeader::number. Files and
+/// recordings are locked while they are written. The folders of rosbag2, image and labels are locked against
+/// other processes.
 ///
 /// Throws IoError if the sink cannot be opened or is locked, and std::invalid_argument if `kind` is null.
 std::unique_ptr<FrameSink> make_sink(const SinkOptions& description);

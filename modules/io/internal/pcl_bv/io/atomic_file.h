@@ -53,12 +53,12 @@ void replace_file_atomically(const std::filesystem::path& path,
 /// text. Throws IoError if more than 40 links follow each other.
 std::filesystem::path follow_links(std::filesystem::path path);
 
-/// Creates a folder and its missing parents. An existing folder stays. Throws IoError with the reason,
-/// without the path.
+/// Creates a folder. An existing folder stays. Throws IoError with the reason, without the path, also if its
+/// parent folder is missing.
 void create_folder(const std::filesystem::path& folder);
 
-/// Creates the missing parent folders of a file. Throws IoError with the reason.
-void create_parent_folders(const std::filesystem::path& file);
+/// Creates the folder of a file, like create_folder().
+void create_folder_of(const std::filesystem::path& file);
 
 /// Removes the temporary files of all calls of write_file_atomically() and replace_file_atomically() that are
 /// running in other threads. Call it in a process that is about to end. Afterwards each such call for a
