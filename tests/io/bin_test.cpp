@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <vector>
 
 #include "files.h"
@@ -119,6 +120,55 @@ TEST_F(Bin, OfFourFloatsIsReadInWhateverOrderItsPointsCome) {
   }
   write_text(file("one.bin"), text_of(sweep(1, 4)));
   EXPECT_EQ(reason_for(file("one.bin")), "");
+}
+
+// Points in random order: coordinates of a room, and attributes in 0 to 1, of whole numbers or in -1 to 1.
+std::vector<float> room(std::size_t points, std::size_t fields, int attributes) {
+  std::mt19937 random(static_cast<unsigned>(7 * fields) + static_cast<unsigned>(attributes));
+  const auto between = [&](double low, double high) {
+    return static_cast<float>(std::uniform_real_distribution<double>(low, high)(random));
+  };
+  std::vector<float> values;
+  for (std::size_t i = 0; i < points; ++i) {
+    values.insert(values.end(), {between(-2, 4), between(1, 8), between(-1.5, 1.6)});
+    for (std::size_t f = 3; f < fields; ++f)
+      values.push_back(attributes == 0   ? between(0, 1)
+                       : attributes == 1 ? std::floor(between(0, 256))
+                                         : between(-1, 1));
+  }
+  return values;
+}
+
+TEST_F(Bin, OfAnotherNumberOfFloatsInRandomOrderIsRefusedWithTheNumberToTry) {
+  for (const std::size_t fields : {3UL, 5UL, 6UL, 7UL, 8UL, 9UL}) {
+    for (const int attributes : {0, 1, 2}) {
+      write_text(file("room.bin"), text_of(room(3000, fields, attributes)));
+      EXPECT_EQ(reason_for(file("room.bin")),
+                "with 4 floats per point, columns mix different values; " + std::to_string(fields) +
+                    " floats per point fit better: try --bin-fields " + std::to_string(fields))
+          << attributes;
+      EXPECT_EQ(read_bin(file("room.bin"), fields).size(), 3000U);
+    }
+  }
+}
+
+TEST_F(Bin, OfFourFloatsIsReadAlsoIfBeamsAlternate) {
+  for (const int attributes : {0, 1, 2}) {
+    write_text(file("room.bin"), text_of(room(6300, 4, attributes)));  // 3, 5, 6, 7 and 9 divide its size
+    EXPECT_EQ(reason_for(file("room.bin")), "") << attributes;
+  }
+  for (const std::size_t beams : {2UL, 3UL, 5UL, 16UL, 40UL, 63UL}) {
+    std::vector<float> values;
+    for (std::size_t i = 0; i < 6300; ++i) {
+      const double angle = 0.001 * static_cast<double>(i / beams);
+      const double tilt = 0.4 * (static_cast<double>(i * 7 % beams) / static_cast<double>(beams) - 0.5);
+      const double range = tilt < 0 ? 1.7 / -tilt : 30;
+      for (const double value : {range * std::cos(angle), range * std::sin(angle), range * tilt, 0.3 + tilt})
+        values.push_back(static_cast<float>(value));
+    }
+    write_text(file("beams.bin"), text_of(values));
+    EXPECT_EQ(reason_for(file("beams.bin")), "") << beams;
+  }
 }
 
 TEST_F(Bin, OfWhatIsNoFloatsIsRefused) {

@@ -113,5 +113,40 @@ TEST_F(LasCounts, AndTheBoxInTheHeaderAreIndependent) {
   EXPECT_EQ(read(bytes).size(), 4U);
 }
 
+// Returns the file with a record of its coordinate system in place of its empty one.
+std::string with_record_of(std::uint16_t id, const std::string& content) {
+  const LasFile las{2, 0, 20, 3};
+  const std::string bytes = las.bytes(), points = bytes.substr(las.first_record());
+  std::string record(54, '\0');
+  record.replace(2, 15, "LASF_Projection");
+  LasFile::put(record, 18, id);
+  LasFile::put(record, 20, static_cast<std::uint16_t>(content.size()));
+  std::string all = bytes.substr(0, 227) + record + content;
+  LasFile::put(all, 96, static_cast<std::uint32_t>(all.size()));
+  return all + points;
+}
+
+std::string geo_keys(std::uint16_t key, std::uint16_t value) {
+  const std::vector<std::uint16_t> keys{1, 1, 0, 2, 1025, 0, 1, 1, key, 0, 1, value};
+  return {reinterpret_cast<const char*>(keys.data()), 2 * keys.size()};
+}
+
+TEST_F(LasCounts, UnitsOtherThanMetresHaveAWarning) {
+  const std::string feet = "the coordinate system has feet: coordinates and distances are in its units",
+                    degrees =
+                        "x and y are longitude and latitude: all distances in their plane are in degrees",
+                    projected = R"(PROJCS["a",GEOGCS["b",UNIT["degree",0.0174]],UNIT["metre",1]])";
+  EXPECT_EQ(read(with_record_of(34735, geo_keys(3076, 9001))).note, "");
+  EXPECT_EQ(read(with_record_of(34735, geo_keys(3076, 9003))).note, feet);
+  EXPECT_EQ(read(with_record_of(34735, geo_keys(4099, 9002))).note, feet);
+  EXPECT_EQ(read(with_record_of(34735, geo_keys(1024, 2))).note, degrees);
+  EXPECT_EQ(read(with_record_of(34735, geo_keys(3076, 9003).substr(0, 20))).note, "");
+  EXPECT_EQ(read(with_record_of(2112, projected)).note, "");
+  EXPECT_EQ(read(with_record_of(2112, R"(PROJCS["a",GEOGCS["b"],UNIT["US survey foot",0.3048006]])")).note,
+            feet);
+  EXPECT_EQ(read(with_record_of(2112, R"(GEOGCS["b",UNIT["degree",0.0174]])")).note, degrees);
+  EXPECT_EQ(read(with_record_of(2111, R"(GEOGCS["b"])")).note, "");
+}
+
 }  // namespace
 }  // namespace pcl_bv::detail

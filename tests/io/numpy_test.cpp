@@ -101,6 +101,28 @@ TEST_F(Numpy, RecordsHaveAllFields) {
   EXPECT_THAT(coordinates_of(cloud), ElementsAre(1, 2, 3));
 }
 
+TEST_F(Numpy, SizesMayBeLongNumbersOfPython2) {
+  const std::string data = floats({1, 2, 3, 4, 5, 6});
+  const std::string records =
+      "{'descr': [('x', '<f4'), ('yz', '<f4', (1L,)), ('y', '<f4'), ('z', '<f4')], 'fortran_order': False, "
+      "'shape': (1L,), }";
+  const std::string array = npy(points("(2L, 3L)"), data);
+  EXPECT_THAT(coordinates_of(read(array)), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(coordinates_of(read(npy(points("(1L, 2L, 3L)"), data))), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(coordinates_of(read(npy(points("(2L, 3L)", "", "True"), data))), ElementsAre(1, 3, 5, 2, 4, 6));
+  EXPECT_THAT(coordinates_of(read(npy(records, floats({1, 9, 2, 3})))), ElementsAre(1, 2, 3));
+  std::string version2 = array;
+  version2[6] = 2;
+  version2.insert(10, 2, '\0');
+  EXPECT_THAT(coordinates_of(read(version2)), ElementsAre(1, 2, 3, 4, 5, 6));
+  for (const bool deflate : {false, true})
+    EXPECT_THAT(coordinates_of(read(npz({{"points.npy", array, deflate}}), ".npz")),
+                ElementsAre(1, 2, 3, 4, 5, 6));
+  for (const char* shape : {"(2LL, 3)", "(L, 3)", "(-2L, 3L)", "(2.0L, 3)"})
+    EXPECT_THAT(reason(npy(points(shape), data)), HasSubstr("is no size")) << shape;
+  EXPECT_THAT(reason(npy(points("(2, 3)", "", "1"), data)), HasSubstr("not True or False"));
+}
+
 TEST_F(Numpy, LargeArraysAreReadInChunks) {
   std::vector<float> values(3 * 100000);
   for (std::size_t i = 0; i < values.size(); ++i)

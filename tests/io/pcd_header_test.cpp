@@ -190,9 +190,31 @@ TEST_F(PcdHeader, WithAnImpossibleTypeIsRefused) {
 }
 
 TEST_F(PcdHeader, WithAnImpossibleCountIsRefused) {
-  for (const char* count : {"0", "-1", "4294967296", "1.5", "x"}) {
+  for (const char* count : {"0", "-1", "4294967296", "1.5", "x"}) {  // of z
     EXPECT_EQ(set("COUNT", std::string("COUNT 1 1 ") + count).reason(),
               "header: COUNT: '" + std::string(count) + "' is not a number from 1 to 4294967295");
+  }
+}
+
+TEST_F(PcdHeader, LeavesOutAFieldOfNoElements) {
+  const auto with_padding = [&](const char* data) {
+    return set("FIELDS", "FIELDS x y z _ intensity _")
+        .set("SIZE", "SIZE 4 4 4 1 4 1")
+        .set("TYPE", "TYPE F F F U F U")
+        .set("COUNT", "COUNT 1 1 1 0 1 0")
+        .set("DATA", std::string("DATA ") + data);
+  };
+  const std::vector<float> values{1, 2, 3, 9, 4, 5, 6, 9};
+  const std::string text = "1 2 3 9\n4 5 6 9\n",
+                    bytes(reinterpret_cast<const char*>(values.data()), sizeof(float) * values.size());
+  for (const auto& [data, body] : {std::pair{"ascii", text}, {"binary", bytes}}) {
+    const RawCloud cloud = with_padding(data).read(body);
+    EXPECT_EQ(coordinates_of(cloud), (std::vector<double>{1, 2, 3, 4, 5, 6})) << data;
+    ASSERT_EQ(cloud.fields.size(), 4U);
+    EXPECT_EQ(intensity_of(cloud.fields, cloud.data.data(), cloud.point_step)->at(1), 9);
+    EXPECT_THAT(cloud.note, HasSubstr("field '_' has COUNT 0 and is left out"));
+    write_pcd(file("again.pcd"), cloud, PcdEncoding::binary_compressed);
+    EXPECT_EQ(coordinates_of(read_pcd(file("again.pcd"))), coordinates_of(cloud));
   }
 }
 

@@ -33,6 +33,22 @@ TEST_F(PlyHeaderFile, ThatIsRightIsRead) {
   EXPECT_EQ(reason_of_vertex("comment property list\n\n  \n" + xyz + "obj_info element\n"), "");
 }
 
+TEST_F(PlyHeaderFile, ThatStatesAnOffsetHasAWarning) {
+  const auto note = [&](const std::string& line) {
+    EXPECT_EQ(reason_of_vertex(line + "\n" + xyz), "");
+    write_text(file("a.ply"),
+               "ply\nformat ascii 1.0\n" + line + "\nelement vertex 1\n" + xyz + "end_header\n1 2 3\n");
+    return read_ply(file("a.ply")).note;
+  };
+  EXPECT_EQ(note("comment offset 500000 4200000 0"),
+            "the header has 'comment offset 500000 4200000 0', which is not applied: coordinates are taken "
+            "as stored");
+  for (const char* line : {"obj_info Offset_X 5", "comment Global Shift: 1 2 3", "comment translation=1,2,3"})
+    EXPECT_THAT(note(line), testing::HasSubstr(line)) << line;
+  for (const char* line : {"comment made 2024 by makeshift 2", "comment offset", "obj_info num_cols 512"})
+    EXPECT_EQ(note(line), "") << line;
+}
+
 TEST_F(PlyHeaderFile, MustStartWithPly) {
   const std::string wanted = "not a .ply file: it does not start with a line 'ply'";
   EXPECT_EQ(reason("# .PCD v0.7\n"), wanted);

@@ -75,7 +75,8 @@ TEST_F(TextCloud, ThatCannotBeReadIsRefusedWithTheLine) {
   EXPECT_THAT(error("hello\nworld\n"), HasSubstr("'world' is neither numbers nor a header"));
   EXPECT_THAT(error("x y z\n"), HasSubstr("no line of numbers"));
   EXPECT_THAT(error("1 2\n3 4\n"), HasSubstr("no field z"));
-  EXPECT_THAT(error("1,2,3\n4,,6\n7,8,9\n"), HasSubstr("row 2 has 2 values instead of 3"));
+  EXPECT_THAT(error("1,2,3\n4,,6\n7,8,9\n"), HasSubstr("row 2, field 'y': '' is not a number"));
+  EXPECT_THAT(error("1,2,3\n4,5\n"), HasSubstr("row 2 has 2 values instead of 3"));
   EXPECT_THAT(error("1 2 3\n4 5 6 7\n"), HasSubstr("row 2 has more than 3 values"));
   EXPECT_THAT(error("1 2 3\n4 five 6\n"), HasSubstr("row 2, field 'y': 'five'"));
   EXPECT_THAT(error("1;2;3\n4;5,5;6\n"), HasSubstr("row 2, field 'y': '5,5'"));
@@ -86,6 +87,57 @@ TEST_F(TextCloud, ThatCannotBeReadIsRefusedWithTheLine) {
     EXPECT_THROW(parse_columns(columns), std::invalid_argument) << columns;
   EXPECT_THAT(read("class,z,y,x\ncar,1,2,3\n").note, HasSubstr("class"));
   EXPECT_THAT(read("1 2 3 car\n", "x,y,z,class:u1").note, HasSubstr("class"));
+}
+
+TEST_F(TextCloud, MayHaveBlanksInsideTheTextOfAColumn) {
+  for (const auto& [text, columns] : std::vector<std::pair<std::string, std::string>>{
+           {"stamp,x,y,z\n2024-01-01 12:00:00,1,2,3\n2024-01-01 12:00:01,4,5,6\n", ""},
+           {"# stamp,x,y,z\n2024-01-01 12:00:00,1,2,3\n2024-01-01 12:00:01,4,5,6\n", ""},
+           {"2024-01-01 12:00:00 , 1,2,\t3\r\n2024-01-01 12:00:01, 4 ,5,6\r\n", "_,x,y,z"},
+           {"x,y,z,class\n1,2,3,high vegetation\n4,5,6,ground\n", ""},
+           {"x;y;z;class\n1 ; 2;3;high, low vegetation\n4;5;6;a , b c \n", ""},
+           {"x,y,z,class\n1,2,3,semi;colon\n4,5,6,a;b\n", ""},
+           {"x y z class\n1 2 3 a,b\n4 5 6 c\n", ""},
+           {"x,y,z,class\n\"1\",\"2\",\"3\",\"a, \"\"b\"\"\"\n4,5,6,\"c\n", ""}}) {
+    EXPECT_THAT(values(text, columns), ElementsAre(1, 2, 3, 4, 5, 6)) << text;
+    EXPECT_EQ(read(text, columns).invalid_fields.size(), 1U) << text;
+  }
+  EXPECT_THAT(read("x,y,z,class\n1,2,3,high \t vegetation\n").note,
+              HasSubstr("field 'class': 'high   vegetation' is not a number"));
+  EXPECT_THAT(error("x,y,z,class\n1,2,3,a\n4,5 5,6,b\n"), HasSubstr("row 2, field 'y': '5 5'"));
+}
+
+TEST_F(TextCloud, MayHaveEmptyValuesOutsideOfItsCoordinates) {
+  for (const char* text :
+       {"x,y,z,r,g\n1,2,3,,9\n4,5,6,7,9\n", "x,y,z,r,g\n1,2,3, ,\n4,5,6,7,9\n", ",x,y,z\n,1,2,3\n1,4,5,6\n",
+        "x;y;z;r\n1;2;3;\n4;5;6;7\n", "x,y,z,r\n1,2,3,8\n4,5,6,\n", "x,y,z,r,\n1,2,3,8,\n4,5,6,,\n"}) {
+    EXPECT_THAT(values(text), ElementsAre(1, 2, 3, 4, 5, 6)) << text;
+    EXPECT_THAT(read(text).note, HasSubstr("'' is not a number; 1 such value is replaced by NaN")) << text;
+  }
+  EXPECT_EQ(names(",x,y,z\n0,1,2,3\n"), "field1 x y z ");
+}
+
+TEST_F(TextCloud, WithBlanksInValuesIsTheSameForEveryNumberOfThreads) {
+  std::string text = "x,y,z,class\n";
+  for (int i = 0; i < 40000; ++i)
+    text += std::to_string(i) + (i % 5 == 0 ? ", 0.5 ," : ",0.5,") + std::to_string(-i) +
+            (i % 3 == 0    ? ",low vegetation\n"
+             : i % 11 == 0 ? ",\n"
+                           : ",7\n");
+  const RawCloud serial = read(text);
+  const RawCloud parallel = read_text_cloud(file("a.csv"), {}, Execution{Threads{4}, Isa::scalar});
+  ASSERT_EQ(serial.size(), 40000U);
+  EXPECT_EQ(parallel.data, serial.data);
+  EXPECT_EQ(parallel.note, serial.note);
+}
+
+TEST_F(TextCloud, OfAnotherNumberOfPointsThanItStatesHasAWarning) {
+  for (const char* text :
+       {"7\n1 2 3\n4 5 6\n", "# x y z\n7\n1 2 3\n4 5 6\n", "7 \r\nx,y,z\r\n1,2,3\r\n4,5,6\r\n"})
+    EXPECT_EQ(read(text).note, "the line before the points says 7 points, the file has 2") << text;
+  EXPECT_THAT(read("1\n1 2 3\n4 5 6\n").note, HasSubstr("says 1 points, the file has 2"));
+  EXPECT_EQ(read("2\n1 2 3\n\n4 5 6\n").note, "");
+  EXPECT_THAT(read_cloud_header(file("a.csv")).cloud.note, "");
 }
 
 }  // namespace

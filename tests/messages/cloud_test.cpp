@@ -247,6 +247,21 @@ TEST(CloudMessage, WithAFieldThatCannotBeReadIsReadWithoutIt) {
   EXPECT_EQ(skipped_fields_note(cloud_of(2).cloud), "");
 }
 
+TEST(CloudMessage, OfFewerPointsThanItsDataHasGivesANote) {
+  for (Made made : {cloud_of(5), cloud_of(5, 3), cloud_of(5, 3, 40), cloud_of(5, 1, 40)}) {
+    EXPECT_EQ(skipped_fields_note(made.cloud), "");
+    --made.cloud.width;
+    if (made.cloud.height == 1) made.cloud.row_step -= 16;
+    if (made.cloud.height == 3) {
+      ++made.cloud.width;
+      --made.cloud.height;
+    }
+    EXPECT_EQ(skipped_fields_note(made.cloud),
+              "the data has more bytes than the points need; they are not read");
+    EXPECT_EQ(raw_cloud_of(made.cloud).note, skipped_fields_note(made.cloud));
+  }
+}
+
 TEST(CloudMessage, MayCountItsCoordinatesAsItLikes) {
   Made made = cloud_of(4);
   made.cloud.fields[0].count = 4;

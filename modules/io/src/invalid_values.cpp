@@ -58,7 +58,7 @@ bool InvalidValues::replace_value(TextRows& rows, std::size_t field, std::byte* 
     const std::lock_guard lock(mutex_);
     if (row < known.first_row) {
       known.first_row = row;
-      known.first = in_quotes(rows.value());
+      known.first = rows.quoted_value();
     }
   }
   with_element_type(of, [to](auto value) {

@@ -223,6 +223,8 @@ LasHeader read_las_header(const InputFile& file) {
   }
   read_scale(bytes, header);
   add_fields(format, header);
+  const std::string units = las_units_note(file, bytes.at<std::uint16_t>(94), header.data_offset);
+  if (!units.empty()) add_note(header.cloud, units);
   return header;
 }
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "laz_format.h"
@@ -35,6 +36,10 @@ struct LasHeader {
 
 /// Reads the header. Throws IoError if it is invalid.
 LasHeader read_las_header(const InputFile& file);
+
+/// Returns a warning if the records in the bytes [begin, end) of the file name a coordinate system in feet or
+/// degrees, otherwise nothing. Reads at most 1 MiB.
+std::string las_units_note(const InputFile& file, std::size_t begin, std::size_t end);
 
 /// Converts a record of the file to a record of the cloud.
 void convert_las_record(const std::byte* from, const LasHeader& header, std::byte* to);

@@ -62,13 +62,21 @@ class PythonText {
     return found;
   }
 
+  bool boolean(std::string_view key) {
+    const std::string_view value = word();
+    if (value != "True" && value != "False")
+      invalid_npy(in_quotes(key) + " is " + in_quotes(value) + ", not True or False");
+    return value == "True";
+  }
+
   // A tuple such as (3,) or ().
   std::vector<std::size_t> sizes() {
     std::vector<std::size_t> found;
     expect('(');
     while (!take(')')) {
       std::size_t value = 0;
-      const std::string_view number = word();
+      std::string_view number = word();
+      if (number.ends_with('L')) number.remove_suffix(1);  // Python 2's long numbers
       if (!read_number(number, value)) invalid_npy(in_quotes(number) + " is no size");
       found.push_back(value);
       if (found.size() > 8) invalid_npy("more than 8 dimensions");
@@ -184,7 +192,7 @@ NpyHeader parse_npy_header(std::string_view start) {
     } else if (key == "shape") {
       shape = text.sizes();
     } else if (key == "fortran_order") {
-      header.by_column = text.word() == "True";
+      header.by_column = text.boolean(key);
     } else {
       invalid_npy("unknown key " + in_quotes(key));
     }

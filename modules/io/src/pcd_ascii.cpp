@@ -68,7 +68,7 @@ class PointRow {
       read -= cloud_.fields[number].count;
     if (invalid_values_.replace_value(rows, number, at)) return;
     const PointField& field = cloud_.fields[number];
-    throw RowError{"row ", ", field " + in_quotes(field.name) + ": " + in_quotes(rows.value()) +
+    throw RowError{"row ", ", field " + in_quotes(field.name) + ": " + rows.quoted_value() +
                                " is not a number of TYPE " + field.type + ", SIZE " +
                                std::to_string(field.size)};
   }
@@ -85,16 +85,19 @@ void read_ascii_points(const InputFile& file, PcdHeader& header, const ParallelP
   check_types(cloud);
   const std::size_t available = file.size() - header.data_offset;
   // Each value takes at least a digit and a separator. Only the last value of the file may have no separator.
+  // Values between commas or semicolons may be empty.
   const std::size_t values = std::max<std::size_t>(values_per_point(cloud), 1);
-  if (cloud.size() > (available + 1) / (2 * values)) {
+  const std::size_t value_bytes = header.separator == ' ' ? 2 : 1;
+  if (cloud.size() > (available + 1) / (value_bytes * values)) {
     throw IoError("truncated: " + std::to_string(cloud.size()) + " points of " + std::to_string(values) +
                   " values do not fit in the " + std::to_string(available) + " bytes after the header");
   }
   cloud.data.resize(cloud.size() * cloud.point_step);
   InvalidValues invalid_values(cloud, "row", 1);
-  const RowsRead rows =
-      read_text_rows({file, header.data_offset, false, header.separator}, {1, cloud.size(), cloud.point_step},
-                     PointRow(cloud, invalid_values), cloud.data.data(), policy);
+  TextBody body{file, header.data_offset, false, header.separator};
+  body.columns = values;
+  const RowsRead rows = read_text_rows(body, {1, cloud.size(), cloud.point_step},
+                                       PointRow(cloud, invalid_values), cloud.data.data(), policy);
   if (rows.count < cloud.size()) {
     throw IoError("truncated: row " + std::to_string(rows.count + 1) + " is missing, of " +
                   std::to_string(cloud.size()));

@@ -23,7 +23,7 @@ struct PcdHeader {
   RawCloud cloud;  ///< The cloud without its points.
   PcdEncoding encoding = PcdEncoding::ascii;
   std::size_t data_offset = 0;  ///< Byte offset of the points, which is the end of the line DATA.
-  char separator = ' ';         ///< A character that separates values of ascii points like a blank.
+  char separator = ' ';         ///< Between values of ascii points, see separate_by_blanks().
 };
 
 /// Reads the header. Throws IoError if it is invalid.

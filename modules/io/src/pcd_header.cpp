@@ -99,10 +99,12 @@ char element_type(std::string_view word) {
   throw IoError("header: TYPE: " + in_quotes(word) + " is not one of I, U, F");
 }
 
-std::uint32_t element_count(std::string_view word) {
+// Returns the number of elements. 0 is allowed for fields other than coordinates, which then have no bytes.
+std::uint32_t element_count(std::string_view word, std::string_view field) {
   const char expected[] = "a number from 1 to 4294967295";
   const auto count = number<std::uint32_t>("COUNT", word, expected);
-  if (count == 0) throw IoError("header: COUNT: " + in_quotes(word) + " is not " + expected);
+  if (count == 0 && is_coordinate_name(field))
+    throw IoError("header: COUNT: " + in_quotes(word) + " is not " + expected);
   return count;
 }
 
@@ -114,9 +116,13 @@ void read_fields(const KeywordLines& lines, RawCloud& cloud) {
   const Words& types = words_of(lines, "TYPE", n);
   const Words counts = lines.count("COUNT") ? words_of(lines, "COUNT", n) : Words(n, "1");
   for (std::size_t i = 0; i < n; ++i) {
-    append_field({std::string(names->second[i]), element_type(types[i]), element_size(sizes[i]),
-                  element_count(counts[i]), 0},
-                 cloud);
+    const std::string_view name = names->second[i];
+    const std::uint32_t count = element_count(counts[i], name);
+    if (count == 0) {
+      add_note(cloud, "field " + in_quotes(name) + " has COUNT 0 and is left out");
+      continue;
+    }
+    append_field({std::string(name), element_type(types[i]), element_size(sizes[i]), count, 0}, cloud);
   }
 }
 

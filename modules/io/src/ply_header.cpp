@@ -87,8 +87,24 @@ PlyProperty read_property(const Words& words, std::string_view line) {
   return list;
 }
 
+// Returns whether a comment or obj_info states an offset of the coordinates, for which programs have keys of
+// their own, such as "comment offset 500000 4200000 0".
+bool states_offset(std::string_view line) {
+  constexpr std::string_view digits = "0123456789";
+  if (line.find_first_of(digits) == std::string_view::npos) return false;
+  std::string words(1, ' ');
+  for (const char c : line)
+    words += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c >= 'a' && c <= 'z' ? c : ' ';
+  words += ' ';
+  constexpr std::string_view keys[] = {" offset ",      " offsetx ", " offsets ",     " shift ",
+                                       " globalshift ", " shiftx ",  " translation ", " transform "};
+  return std::any_of(std::begin(keys), std::end(keys),
+                     [&](std::string_view key) { return words.find(key) != std::string::npos; });
+}
+
 struct Contents {
   std::optional<PlyEncoding> encoding;
+  std::string_view offset{};  // the first comment that states one
   std::vector<PlyElement> elements;
   std::optional<std::size_t> vertex;  // index of the first element named vertex
 
@@ -125,7 +141,12 @@ bool read_contents(std::string_view start, Contents& contents, std::size_t& data
     const Words words = split(line);
     data_offset = lines.offset();
     if (words == Words{"end_header"}) return true;
-    if (!words.empty() && words[0] != "comment" && words[0] != "obj_info") read_line(words, line, contents);
+    if (words.empty()) continue;
+    if (words[0] != "comment" && words[0] != "obj_info") {
+      read_line(words, line, contents);
+    } else if (contents.offset.empty() && states_offset(line)) {
+      contents.offset = line;
+    }
   }
   return false;
 }
@@ -166,7 +187,11 @@ PlyHeader read_ply_header(const InputFile& file) {
   PlyHeader header;
   parse_header(file, "end_header", [&](std::string_view start, bool) {
     contents = {};
-    return read_contents(start, contents, header.data_offset);
+    const bool complete = read_contents(start, contents, header.data_offset);
+    if (complete && !contents.offset.empty())
+      add_note(header.cloud, "the header has " + in_quotes(contents.offset) +
+                                 ", which is not applied: coordinates are taken as stored");
+    return complete;
   });
   if (!contents.encoding) throw IoError("header: no format line");
   if (!contents.vertex) throw IoError("header: no element vertex");

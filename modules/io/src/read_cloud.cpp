@@ -99,6 +99,7 @@ void detail::refuse_other_formats(const std::filesystem::path& path) {
   constexpr Kind kinds[] = {
       {" .obj .stl .off .gltf .glb .dae .3ds ",
        "is a mesh, not a cloud: sample it, for example with pcl_mesh_sampling"},
+      {" .ptx ", "has a transform for each scan, which is not read: convert it to .las, .ply or .pts"},
       {" .e57 .rcp .rcs .fls .zfs ", "is a scanner's own format: convert it to .las, .ply or .pcd"},
       {" .bag .mcap .db3 .pcap .pcapng ",
        "is a recording, not a cloud: read it with open_recording() or RecordedClouds"}};

@@ -11,59 +11,71 @@
 
 #include "fields.h"
 #include "pcd_format.h"
+#include "separated_text.h"
 #include "text.h"
 #include "text_rows.h"
 
 namespace pcl_bv::detail {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view around = " \t\r\"'";
-  const std::size_t begin = text.find_first_not_of(around);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(around) - begin + 1);
-}
-
-// Returns the values of a line. A separator at its end adds none.
-Words split_columns(std::string_view line, char separator) {
-  if (separator == ' ') return split(line);
-  Words words;
-  for (std::size_t at = 0; at < line.size();) {
-    const std::size_t end = std::min(line.find(separator, at), line.size());
-    words.push_back(trimmed(line.substr(at, end - at)));
-    at = end + 1;
-  }
-  if (!words.empty() && words.back().empty()) words.pop_back();
-  return words;
-}
-
-char separator_of(std::string_view line) {
-  for (const char separator : {';', ','})
-    if (line.find(separator) != std::string_view::npos) return separator;
-  return ' ';
-}
-
-// Columns whose values must be numbers in the first row: those of the coordinates if names are known, because
-// other columns may have text. Otherwise all.
-using ColumnNumbers = std::vector<std::size_t>;
-
 template <typename Named>
-ColumnNumbers coordinate_columns(const Named& names) {
-  ColumnNumbers found;
+std::vector<std::size_t> coordinate_columns(const Named& names) {
+  std::vector<std::size_t> found;
   for (std::size_t i = 0; i < names.size(); ++i)
     if (is_coordinate_name(names[i])) found.push_back(i);
   return found;
 }
 
-bool is_row_of_numbers(std::string_view line, const ColumnNumbers& wanted) {
-  const Words words = split_columns(line, separator_of(line));
-  const auto is_number = [&](std::string_view word) {
-    double value = 0;
-    return read_number(word, value);
-  };
-  if (wanted.size() < 3) return !words.empty() && std::all_of(words.begin(), words.end(), is_number);
-  return std::all_of(wanted.begin(), wanted.end(),
+// What is known of the columns before the first line of numbers.
+struct KnownColumns {
+  std::vector<std::size_t> coordinates;  // numbers of the columns x, y and z
+  std::size_t count = 0;
+  char separator = ' ';  // between the names
+  bool certain = false;  // a comment may be no header
+};
+
+bool is_number(std::string_view word) {
+  double value = 0;
+  return read_number(word, value);
+}
+
+// Returns whether x, y and z are numbers, since other columns may have text. Without names, all values must
+// be numbers.
+bool is_row_of_numbers(const Words& words, const KnownColumns& known) {
+  const bool named = known.coordinates.size() >= 3 && (known.certain || words.size() == known.count);
+  if (!named) return !words.empty() && std::all_of(words.begin(), words.end(), is_number);
+  return std::all_of(known.coordinates.begin(), known.coordinates.end(),
                      [&](std::size_t i) { return i < words.size() && is_number(words[i]); });
+}
+
+constexpr char kSeparators[] = {';', ',', ' '};
+
+// Returns the separator with which a line is a row of numbers, or nullopt. That of the names comes first,
+// because text in a column may have another one.
+std::optional<char> separator_of_row(std::string_view line, const KnownColumns& known) {
+  const auto fits = [&](char separator) {
+    return (separator == ' ' || line.find(separator) != std::string_view::npos) &&
+           is_row_of_numbers(split_columns(line, separator), known);
+  };
+  if (known.separator != ' ' && fits(known.separator)) return known.separator;
+  const auto* const found = std::find_if(std::begin(kSeparators), std::end(kSeparators), fits);
+  return found == std::end(kSeparators) ? std::nullopt : std::optional(*found);
+}
+
+char separator_of_names(std::string_view header) {
+  for (const char separator : kSeparators)
+    if (coordinate_columns(split_columns(header, separator)).size() >= 3) return separator;
+  return separator_of(header);
+}
+
+KnownColumns columns_of_header(std::string_view header, bool is_comment) {
+  KnownColumns known;
+  known.separator = separator_of_names(header);
+  const Words names = split_columns(header, known.separator);
+  known.coordinates = coordinate_columns(names);
+  known.count = names.size();
+  known.certain = !is_comment;
+  return known;
 }
 
 PointField parse_column(std::string_view text) {
@@ -84,33 +96,45 @@ PointField parse_column(std::string_view text) {
 
 // The lines before the numbers.
 struct TextStart {
-  std::size_t begin = 0;    // of the first line of numbers
-  std::size_t columns = 0;  // in this line
-  char separator = ' ';     // in this line
-  std::string_view header;  // the last line that is not blank before it, without # and //
+  std::size_t begin = 0;              // of the first line of numbers
+  std::size_t columns = 0;            // in this line
+  char separator = ' ';               // in this line
+  std::optional<double> point_count;  // alone in a line, as in .pts files
+  std::string_view header;            // the last line that is not blank before it, without # and //
+  KnownColumns known;                 // from the header
   bool header_is_comment = false;
 };
 
-// Returns nothing if the numbers begin behind the text.
-std::optional<TextStart> find_numbers(std::string_view text, bool more, ColumnNumbers wanted) {
+// Returns whether the line is a number alone.
+bool is_count(std::string_view line) {
+  return split(line).size() == 1 && is_number(line);
+}
+
+void set_first_row(std::string_view line, char separator, std::size_t expected_columns, TextStart& start) {
+  start.separator = separator;
+  start.columns = split_columns(line, separator).size();
+  const bool last_is_empty = separator != ' ' && line.back() == separator;
+  if (last_is_empty && start.columns + 1 == expected_columns) ++start.columns;
+}
+
+// Returns nothing if the numbers begin behind the text. `names` are those of --columns, if given.
+std::optional<TextStart> find_numbers(std::string_view text, bool more, const KnownColumns& names) {
   TextStart start;
   bool other_text = false;
   for (std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; at < text.size();) {
     const std::size_t newline = text.find('\n', at);
     if (newline == std::string_view::npos && more) return std::nullopt;
     const std::size_t end = std::min(newline, text.size());
-    std::string_view line = trimmed(text.substr(at, end - at));
+    const std::string_view line = without_blanks_around(text.substr(at, end - at));
     const std::size_t begin = std::exchange(at, end + 1);
     if (line.empty()) continue;
-    const bool is_count = start.begin == 0 && at < text.size() && is_row_of_numbers(line, {}) &&
-                          split_columns(line, ' ').size() == 1 && separator_of(line) == ' ';
-    if (is_count) {  // of a .pts file
-      start.begin = 1;
+    if (!start.point_count && at < text.size() && is_count(line)) {
+      read_number(line, start.point_count.emplace());
       continue;
     }
-    if (is_row_of_numbers(line, wanted)) {
-      start.separator = separator_of(line);
-      start.columns = split_columns(line, start.separator).size();
+    const KnownColumns& known = names.certain ? names : start.known;
+    if (const std::optional<char> separator = separator_of_row(line, known)) {
+      set_first_row(line, *separator, known.count, start);
       start.begin = begin;
       return start;
     }
@@ -118,17 +142,16 @@ std::optional<TextStart> find_numbers(std::string_view text, bool more, ColumnNu
     start.header_is_comment = comment != 0;
     if (!start.header_is_comment && std::exchange(other_text, true))
       throw IoError("line " + in_quotes(line) + " is neither numbers nor a header");
-    start.header = comment == std::string_view::npos ? std::string_view() : trimmed(line.substr(comment));
-    if (wanted.size() < 3 && !start.header_is_comment)
-      wanted = coordinate_columns(split_columns(start.header, separator_of(start.header)));
+    start.header = comment == std::string_view::npos ? std::string_view() : line.substr(comment);
+    if (!start.known.certain) start.known = columns_of_header(start.header, start.header_is_comment);
   }
   if (!more) throw IoError("has no line of numbers");
   return std::nullopt;
 }
 
 void add_named_columns(const TextStart& start, RawCloud& cloud) {
-  const char separator = start.separator == ' ' ? separator_of(start.header) : start.separator;
-  const Words names = split_columns(start.header, separator);
+  Words names = split_columns(start.header, separator_of_names(start.header));
+  if (names.size() != start.columns) names = split_columns(start.header, start.separator);
   const bool fits = names.size() == start.columns;
   if (!fits && !start.header.empty() && !start.header_is_comment)
     throw IoError("the header has " + std::to_string(names.size()) +
@@ -136,13 +159,19 @@ void add_named_columns(const TextStart& start, RawCloud& cloud) {
   for (std::size_t i = 0; i < start.columns; ++i) {
     std::string name = default_column_name(i, start.columns);
     if (fits) {
-      name = names[i];
+      name = names[i].empty() ? "field" + std::to_string(i + 1) : names[i];
       std::replace_if(
           name.begin(), name.end(), [](char c) { return c == ' ' || c == '\t'; }, '_');
     }
     if (!is_word(name)) throw IoError("column " + std::to_string(i + 1) + " has no name in the header");
     append_field({std::move(name), 'F', 8, 1, 0}, cloud);
   }
+}
+
+void compare_counts(const std::optional<double>& stated, RawCloud& cloud) {
+  if (!stated || *stated == static_cast<double>(cloud.width)) return;
+  add_note(cloud, "the line before the points says " + general_text(*stated, 17) + " points, the file has " +
+                      std::to_string(cloud.width));
 }
 
 }  // namespace
@@ -165,28 +194,33 @@ std::vector<PointField> parse_columns(std::string_view columns) {
 PcdHeader read_text_header(const InputFile& file, std::string_view columns) {
   PcdHeader header;
   RawCloud& cloud = header.cloud;
-  std::vector<std::string> names;
-  for (const PointField& field : columns.empty() ? std::vector<PointField>() : parse_columns(columns))
+  const std::vector<PointField> given = columns.empty() ? std::vector<PointField>() : parse_columns(columns);
+  std::vector<std::string_view> names;
+  for (const PointField& field : given)
     names.push_back(field.name);
+  const KnownColumns known{coordinate_columns(names), names.size(), ' ', !given.empty()};
+  std::optional<double> point_count;
   parse_header(file, "line of numbers", [&](std::string_view text, bool more) {
-    const std::optional<TextStart> start = find_numbers(text, more, coordinate_columns(names));
+    const std::optional<TextStart> start = find_numbers(text, more, known);
     if (!start) return false;
     if (start->columns > kMaxColumns) throw IoError("more than 4096 columns");
     header.data_offset = start->begin;
     header.separator = start->separator;
-    if (columns.empty()) {
+    point_count = start->point_count;
+    if (given.empty()) {
       add_named_columns(*start, cloud);
     } else {
-      for (PointField& field : parse_columns(columns))
-        append_field(std::move(field), cloud);
-      if (cloud.fields.size() != start->columns)
+      for (const PointField& field : given)
+        append_field(field, cloud);
+      if (given.size() != start->columns)
         throw IoError("the first line of numbers has " + std::to_string(start->columns) +
-                      " values, not the " + std::to_string(cloud.fields.size()) + " of --columns");
+                      " values, not the " + std::to_string(given.size()) + " of --columns");
     }
     return true;
   });
   TextBody body{file, header.data_offset, false, header.separator};
   cloud.width = skip_text_rows(body, static_cast<std::size_t>(-1));
+  compare_counts(point_count, cloud);
   require_coordinates(cloud);
   return header;
 }

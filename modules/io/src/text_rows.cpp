@@ -14,6 +14,7 @@
 
 #include "fields.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
+#include "separated_text.h"
 #include "text.h"
 
 namespace pcl_bv::detail {
@@ -95,9 +96,8 @@ class TextPieces {
     }
     last = std::min(last, have);
     first = std::min(first, last);
-    char* text = reinterpret_cast<char*>(buffer.data());
-    std::memset(text + last, '\n', kTextPadding);
-    return {text + first, last - first};
+    if (body_.separator != ' ') return separated(buffer, first, last);
+    return padded(buffer, first, last);
   }
 
  private:
@@ -111,7 +111,29 @@ class TextPieces {
     body_.file.read(from, buffer.data() + have, bytes);
     char* text = reinterpret_cast<char*>(buffer.data());
     if (body_.cr_ends_row) std::replace(text + have, text + have + bytes, '\r', '\n');
-    if (body_.separator != ' ') std::replace(text + have, text + have + bytes, body_.separator, ' ');
+  }
+
+  static std::string_view padded(ByteBuffer& buffer, std::size_t first, std::size_t last) {
+    char* const text = reinterpret_cast<char*>(buffer.data());
+    std::memset(text + last, '\n', kTextPadding);
+    return {text + first, last - first};
+  }
+
+  // Returns the lines [first, last) with blanks between their values. Lines whose separators cannot just be
+  // replaced are written behind the others.
+  std::string_view separated(ByteBuffer& buffer, std::size_t first, std::size_t last) const {
+    char* text = reinterpret_cast<char*>(buffer.data());
+    const std::string_view lines(text + first, last - first);
+    if (has_plain_values(lines, body_.separator)) {
+      std::replace(text + first, text + last, body_.separator, ' ');
+      return padded(buffer, first, last);
+    }
+    const std::size_t end = last + 2 * lines.size() + 2 + kTextPadding;
+    if (buffer.size() < end) buffer.resize(end);
+    text = reinterpret_cast<char*>(buffer.data());
+    const char* const written =
+        separate_by_blanks({text + first, last - first}, body_.separator, body_.columns, text + last);
+    return padded(buffer, last, static_cast<std::size_t>(written - text));
   }
 
   TextBody body_;
@@ -244,6 +266,13 @@ std::string_view TextRows::value() const {
   while (!ends_value(*stop))
     ++stop;
   return {at_, static_cast<std::size_t>(stop - at_)};
+}
+
+std::string TextRows::quoted_value() const {
+  std::string text(value());
+  if (text == std::string_view(&kInnerBlank, 1)) text.clear();
+  std::replace(text.begin(), text.end(), kInnerBlank, ' ');
+  return in_quotes(text);
 }
 
 bool extend_run(PointField& run, const PointField& next) {

@@ -62,6 +62,9 @@ class TextRows {
   /// Returns the text of the value at the cursor.
   std::string_view value() const;
 
+  /// Returns the value at the cursor as in_quotes(), with the blanks that the file has.
+  std::string quoted_value() const;
+
  private:
   const char* at_;
   const char* end_;
@@ -80,8 +83,9 @@ struct TextBody {
   const InputFile& file;
   std::size_t begin;                          ///< Byte offset of the first row.
   bool cr_ends_row;                           ///< Whether a carriage return alone also ends a row.
-  char separator = ' ';                       ///< A character that separates values like a blank.
+  char separator = ' ';                       ///< Between values, see separate_by_blanks().
   std::size_t piece_bytes = kTextPieceBytes;  ///< Bytes that are read at a time.
+  std::size_t columns = 0;                    ///< Values of a row, with a separator other than ' '.
 };
 
 /// Thrown for a row that cannot be read. The message is `before`, then the number of the row, then `after`.

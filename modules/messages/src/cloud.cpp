@@ -155,8 +155,20 @@ struct Selection {
   }
 };
 
+// Returns whether the data could have more points than the message says.
+bool has_more_data(const msg::PointCloud2& cloud) {
+  const Layout layout = layout_of(cloud);
+  const std::uint64_t rows = layout.height, size = cloud.data.size;
+  std::uint64_t row = layout.row_bytes;
+  if (cloud.row_step > row && cloud.row_step <= size / rows)
+    row = cloud.row_step;  // padding after the last row
+  return size >= cloud.point_step + rows * row;
+}
+
 Selection select_fields(const msg::PointCloud2& cloud, const Coordinates3& xyz) {
   Selection selection;
+  if (has_more_data(cloud))
+    selection.note = "the data has more bytes than the points need; they are not read";
   // Limits the new record to twice the size of the old record. Fields may overlap, because a colour often has
   // two names. Without a limit, each field of a damaged message could repeat the whole record.
   const std::size_t max_bytes = 2 * std::size_t{cloud.point_step};

@@ -70,7 +70,7 @@ CloudHeader read_cloud_header(const std::filesystem::path& path, const ReadOptio
 /// Bytes after the last point of a binary file that could be further points are not read, and RawCloud::note
 /// reports them. They are an error if the header says 0 points, because a recorder may have stopped before it
 /// updated the header. RawCloud::note also reports a VIEWPOINT other than the identity. A viewpoint is never
-/// applied.
+/// applied. A field with COUNT 0 has no values: it is left out, and the note says so.
 ///
 /// Ascii files are read by the threads of `execution`. The cloud and the error are the same for any number of
 /// threads. In addition to the memory of the cloud, an ascii file needs 0.3 MiB per thread, or more if a row

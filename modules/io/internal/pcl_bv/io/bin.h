@@ -18,9 +18,9 @@ namespace [[gnu::visibility("default")]] detail {
 ///
 /// The file does not state its number of fields. If `fields` is 0, the number is checked for plausibility.
 /// Successive points of a scan are close to each other, so each value should differ little from the value one
-/// record later. The file is refused if another number of fields fits clearly better (the error names the
-/// other number), or if most values cannot be coordinates (NaN, a magnitude above 1e7, or a magnitude below
-/// 1e-20 other than 0).
+/// record later. Points in random order differ much, but each value has a distribution of its own. The file
+/// is refused if another number of fields fits clearly better (the error names the other number), or if most
+/// values cannot be coordinates (NaN, a magnitude above 1e7, or a magnitude below 1e-20 other than 0).
 ///
 /// Throws IoError with the reason for an implausible number of fields and for a file that is missing,
 /// unreadable, empty or of a size that is not a multiple of a record ("truncated"). Throws

@@ -25,7 +25,8 @@ namespace [[gnu::visibility("default")]] detail {
 /// - gps_time, red, green and blue in the formats that have them.
 ///
 /// All other values of the points are left out, such as scan angles, user data, near infrared, extra bytes
-/// and waveforms. Variable length records are not read.
+/// and waveforms. Of the variable length records, only the units of the coordinate system are read:
+/// RawCloud::note says if they are feet or degrees. Coordinates stay in them.
 ///
 /// Files of version 1.4 or later have a 64-bit count and a legacy count of points. The 64-bit count is used,
 /// unless it is 0 and the format is 0 to 5. Then the legacy count is used. A legacy count that is neither 0

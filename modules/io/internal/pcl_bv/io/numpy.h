@@ -16,9 +16,10 @@ namespace [[gnu::visibility("default")]] detail {
 ///   only). The fields are x, y, z, intensity if C is 4, else field4, field5 and so on;
 /// - records, N or H x W, with the fields x, y and z (or X, Y and Z). All fields are read.
 ///
-/// Numbers are integers of 1 to 8 bytes, float32 or float64, little-endian. Throws IoError with the reason
-/// for other arrays (objects, complex, float16, big-endian, bool) and for a file that is missing, unreadable,
-/// empty or truncated. Nothing is allocated before the shape is compared with the size of the file.
+/// Sizes may be Python 2's long numbers (3L). Numbers are integers of 1 to 8 bytes, float32 or float64,
+/// little-endian. Throws IoError with the reason for other arrays (objects, complex, float16, big-endian,
+/// bool) and for a file that is missing, unreadable, empty or truncated. Nothing is allocated before the
+/// shape is compared with the size of the file.
 RawCloud read_npy(const std::filesystem::path& path);
 
 /// Reads one array of an .npz file (stored or deflated) as read_npy(). It is the one named points, xyz,

@@ -22,15 +22,17 @@ bool is_text_name(const std::filesystem::path& path);
 /// std::invalid_argument for other texts, for repeated names, and without x, y and z (or X, Y and Z).
 std::vector<PointField> parse_columns(std::string_view columns);
 
-/// Reads a text file. Values are separated by blanks, by commas or, if the first line of numbers has one, by
-/// semicolons. The names of the columns are `columns` (see parse_columns()) or, if it is empty, those of the
-/// header: the line before the first line of numbers, which may begin with # or //, with as many names as
-/// there are columns. Without a header the columns are x, y, z, intensity if there are four, else x, y, z,
-/// field4, field5 and so on. Columns are doubles.
+/// Reads a text file. Values are separated by blanks, commas or semicolons. With commas and semicolons,
+/// blanks around a value do not belong to it, blanks inside do, and a value in double quotes may contain
+/// separators. Values other than x, y and z may be empty. The names of the columns are `columns` (see
+/// parse_columns()) or, if it is empty, those of the header: the line before the first line of numbers, which
+/// may begin with # or //, with as many names as there are columns. Without a header the columns are x, y, z,
+/// intensity if there are four, else x, y, z, field4, field5 and so on. Columns are doubles.
 ///
 /// Lines before the numbers that begin with # or //, and a line with the number of points alone, as in .pts
-/// files, are skipped. Blank lines are skipped everywhere. Values are read as those of ascii .pcd files (see
-/// read_pcd()), in parallel. Throws IoError with the reason, and std::invalid_argument for invalid `columns`.
+/// files, are skipped. RawCloud::note says if this number is not that of the rows. Blank lines are skipped
+/// everywhere. Values are read as those of ascii .pcd files (see read_pcd()), in parallel. Throws IoError
+/// with the reason, and std::invalid_argument for invalid `columns`.
 RawCloud read_text_cloud(const std::filesystem::path& path, std::string_view columns = {},
                          const Execution& execution = {Serial{}, Isa::scalar});
 

@@ -34,7 +34,8 @@ std::optional<FieldView> view_intensity(const msg::PointCloud2& cloud);
 std::optional<FieldView> view_times(const msg::PointCloud2& cloud);
 
 /// Returns a line for the user that names at most three of the fields that raw_cloud_of() leaves out, with
-/// the reasons. Returns an empty text if no field is left out. Throws as view_points().
+/// the reasons, and says if the data has bytes for more points. Otherwise returns an empty text. Throws as
+/// view_points().
 std::string skipped_fields_note(const msg::PointCloud2& cloud);
 
 /// Returns a copy of the cloud, row by row without padding, little-endian. If x, y or z is missing, X, Y or Z
