@@ -151,6 +151,56 @@ TEST_F(BoxLabels, OfKittiMayHaveScoresAndRegionsThatNobodyLabelled) {
   EXPECT_EQ(box.half_extents(), Eigen::Vector3d(2, 0.8, 0.75));
 }
 
+TEST_F(BoxLabels, OfRegionsThatNobodyLabelledAreLeftOutInEveryFormat) {
+  const std::string none = R"({"name":"b","val":[-10,499,-1,0,-1,0,-1000,-1000,-1000]})",
+                    car = R"({"name":"b","val":[10,5,0,0,0,0.5,4,2,1.5]})";
+  const auto object = [](const std::string& cuboid, const std::string& type = "") {
+    return "{" + (type.empty() ? "" : R"("type":")" + type + R"(",)") + R"("object_data":{"cuboid":[)" +
+           cuboid + "]}}";
+  };
+  const std::string types =
+      R"("objects":{"0":{"name":"a","type":"DontCare"},"1":{"name":"b","type":"Car"}},)";
+  for (const std::string& text : {R"({"openlabel":{)" + types + R"("frames":{"0":{"objects":{"0":)" +
+                                      object(none) + R"(,"1":)" + object(car) + "}}}}}",
+                                  R"({"openlabel":{"frames":{"0":{"objects":{"0":)" +
+                                      object(none, "DontCare") + R"(,"1":)" + object(car) + "}}}}}",
+                                  R"({"openlabel":{"objects":{"0":)" + object(none, "Dont_Care") +
+                                      R"(,"1":)" + object(car, "Car") + "}}}"}) {
+    const std::vector<AnyVolume> found = read(text);
+    ASSERT_EQ(found.size(), 1U) << text;
+    const auto& box = std::get<Obb>(found[0]);
+    EXPECT_EQ(box.center(), Eigen::Vector3d(10, 5, 0));
+    EXPECT_EQ(box.half_extents(), Eigen::Vector3d(2, 1, 0.75));
+    EXPECT_LT((box.axes() - about(kZ, 0.5)).norm(), 1e-15);
+  }
+  EXPECT_THAT(error_of(R"({"openlabel":{"objects":{"0":)" + object(none, "Car") + "}}}"),
+              HasSubstr("the size"));
+  const std::string nuscenes = R"({"translation":[1,2,3],"size":[1,2,3],"rotation":[1,0,0,0]})",
+                    sustech = R"({"psr":{"position":{"x":0,"y":0,"z":0},"scale":{"x":1,"y":1,"z":1},)"
+                              R"("rotation":{"x":0,"y":0,"z":0}}})";
+  for (const char* key : {"detection_name", "tracking_name", "category_name"})
+    EXPECT_EQ(
+        read("[" + nuscenes + R"(,{"translation":[-1000,0,0],"size":[-1,-1,-1],"rotation":[0,0,0,0],")" +
+             key + R"(":"DontCare"}])")
+            .size(),
+        1U)
+        << key;
+  EXPECT_EQ(read("[" + sustech + R"(,{"psr":{"scale":{"x":-1}},"obj_type":"DontCare"}])").size(), 1U);
+}
+
+TEST_F(BoxLabels, OfSeveralCoordinateSystemsAreRefused) {
+  const auto labels = [](const char* first, const char* second) {
+    const auto cuboid = [](const std::string& system) {
+      return R"({"val":[1,2,3,0,0,0,4,5,6],"coordinate_system":")" + system + R"("})";
+    };
+    return R"({"openlabel":{"objects":{"0":{"object_data":{"cuboid":[)" + cuboid(first) + "," +
+           cuboid(second) + "]}}}}}";
+  };
+  EXPECT_EQ(read(labels("lidar", "lidar")).size(), 2U);
+  EXPECT_THAT(error_of(labels("lidar", "camera")),
+              HasSubstr("the coordinate_system is 'camera', that of boxes before is 'lidar'"));
+}
+
 TEST_F(BoxLabels, ThatCannotBeReadAreRefusedByName) {
   EXPECT_THAT(error_of(kCar + "\nCar 0 0\n"), HasSubstr("line 2: 15 or 16 columns are wanted"));
   EXPECT_THAT(error_of(kCar + "\n" + "Car 0 0 1.5 0 0 9 9 1.5 1.6 4 -2 x\x01 20 0.1"),

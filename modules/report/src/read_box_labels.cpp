@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
+#include <set>
 
 #include "json_numbers.h"
 
@@ -68,11 +70,33 @@ Obb openlabel_box(const LabelJson& cuboid) {
   return box_from({at(0), at(1), at(2)}, axes, {at(n - 3), at(n - 2), at(n - 1)});
 }
 
+// Returns whether a type marks a region without a box, which KITTI calls DontCare.
+bool is_dont_care_type(std::string_view type) {
+  std::string letters;
+  for (const char c : type.substr(0, 40)) {
+    const bool upper = c >= 'A' && c <= 'Z';
+    if (upper || (c >= 'a' && c <= 'z')) letters += static_cast<char>(upper ? c - 'A' + 'a' : c);
+  }
+  return letters == "dontcare";
+}
+
+// Converters of KITTI's labels keep these regions, with sizes of -1 or -1000.
+bool is_dont_care(const LabelJson& label) {
+  if (!label.is_object()) return false;
+  for (const char* key : {"type", "obj_type", "detection_name", "tracking_name", "category_name"}) {
+    const auto type = label.find(key);
+    if (type != label.end() && type->is_string() && is_dont_care_type(type->get_ref<const std::string&>()))
+      return true;
+  }
+  return false;
+}
+
 // Appends the box of each entry of a list. An error begins with the path of its entry.
 void append_boxes(const LabelJson& list, const std::string& path, Obb (*read)(const LabelJson&),
                   std::vector<AnyVolume>& volumes) {
   list_of(path.c_str(), list);
   for (std::size_t i = 0; i < list.size(); ++i) {
+    if (is_dont_care(list[i])) continue;
     try {
       volumes.emplace_back(read(list[i]));
     } catch (const std::invalid_argument& error) {
@@ -81,22 +105,53 @@ void append_boxes(const LabelJson& list, const std::string& path, Obb (*read)(co
   }
 }
 
-// Appends the boxes of all members "cuboid" at any depth: those of objects and of frames.
-void append_cuboids(const LabelJson& json, const std::string& path, std::vector<AnyVolume>& volumes) {
-  if (!json.is_structured()) return;
-  std::size_t i = 0;
-  for (const auto& [key, value] : json.items()) {
-    ++i;
-    if (!value.is_structured()) continue;
-    std::string inner = path;
-    inner += json.is_object() ? '.' + key.substr(0, kMaxNameBytes) : '[' + std::to_string(i - 1) + ']';
-    if (json.is_object() && key == "cuboid") {
-      append_boxes(value, inner, openlabel_box, volumes);
-    } else {
-      append_cuboids(value, inner, volumes);
+// Reads the boxes of all members "cuboid" at any depth: those of objects and of frames.
+class OpenLabelBoxes {
+ public:
+  OpenLabelBoxes(const LabelJson& root, std::vector<AnyVolume>& volumes) : volumes_(volumes) {
+    const auto objects = root.find("objects");
+    if (objects == root.end() || !objects->is_object()) return;
+    for (const auto& [id, object] : objects->items())
+      if (is_dont_care(object)) dont_care_.insert(id);
+  }
+
+  void append(const LabelJson& json, const std::string& path, bool objects = false) {
+    if (!json.is_structured()) return;
+    std::size_t i = 0;
+    for (const auto& [key, value] : json.items()) {
+      ++i;
+      if (!value.is_structured()) continue;
+      if (objects && (dont_care_.count(key) > 0 || is_dont_care(value))) continue;
+      std::string inner = path;
+      inner += json.is_object() ? '.' + key.substr(0, kMaxNameBytes) : '[' + std::to_string(i - 1) + ']';
+      if (json.is_object() && key == "cuboid") {
+        require_one_system(value, inner);
+        append_boxes(value, inner, openlabel_box, volumes_);
+      } else {
+        append(value, inner, json.is_object() && key == "objects");
+      }
     }
   }
-}
+
+ private:
+  // Boxes of several coordinate systems cannot all be in the frame of the cloud.
+  void require_one_system(const LabelJson& cuboids, const std::string& path) {
+    if (!cuboids.is_array()) return;
+    for (const LabelJson& cuboid : cuboids) {
+      const auto found = cuboid.is_object() ? cuboid.find("coordinate_system") : cuboid.end();
+      if (found == cuboid.end() || !found->is_string()) continue;
+      const auto& name = found->get_ref<const std::string&>();
+      if (system_.empty()) system_ = name;
+      if (name != system_)
+        refuse(path + ": the coordinate_system is " + in_quotes(name) + ", that of boxes before is " +
+               in_quotes(system_));
+    }
+  }
+
+  std::vector<AnyVolume>& volumes_;
+  std::set<std::string, std::less<>> dont_care_;  // keys of objects
+  std::string system_;
+};
 
 bool has_entry_with(const LabelJson& list, const char* key) {
   return list.is_array() &&
@@ -166,7 +221,7 @@ bool read_box_labels(const UntrustedJson& json, std::vector<AnyVolume>& volumes)
   if (json.is_array()) return read_label_list(json, "", volumes);
   if (!json.is_object()) return false;
   if (const auto root = json.find("openlabel"); root != json.end()) {
-    append_cuboids(*root, "openlabel", volumes);
+    OpenLabelBoxes(*root, volumes).append(*root, "openlabel");
     return true;
   }
   if (const auto objects = json.find("objs"); objects != json.end())
@@ -199,7 +254,7 @@ std::vector<AnyVolume> read_kitti_labels(std::string_view text) {
     ++number;
     if (line.words.empty()) continue;
     const std::size_t type = first_column(line);
-    if (type < line.words.size() && line.words[type] == "DontCare") continue;
+    if (type < line.words.size() && is_dont_care_type(line.words[type])) continue;
     try {
       volumes.emplace_back(kitti_box(line));
     } catch (const std::invalid_argument& error) {

@@ -20,7 +20,8 @@ namespace [[gnu::visibility("default")]] detail {
 /// The file may also have boxes in a format of box_labels.h: KITTI's labels, OpenLABEL, results or
 /// annotations of nuScenes, or labels of SUSTechPOINTS. They become oriented boxes with the exact centres and
 /// sizes of the file, except that the centre of a KITTI label is half its height above its location, which is
-/// rounded. KITTI's boxes of the type DontCare are left out.
+/// rounded. Boxes of the type DontCare are left out. Cuboids of OpenLABEL with several values of
+/// "coordinate_system" are an error.
 ///
 /// A value that may be meant as a volume must be a volume or contain one, at any depth. Such values are:
 /// - each entry of a list or object "volumes", and a value "volumes" that is neither list nor object;
