@@ -98,7 +98,6 @@ TEST_F(Poses, ThatCannotBeUsedAreNamedWithTheirLine) {
            {"", "no poses"},
            {"# nothing\n", "no poses"},
            {kitti, "1 poses of 2 frames"},
-           {kitti + kitti + kitti, "3 poses of 2 frames"},
            {"1 2 3\n", "line 1: must have 12"},
            {"1 2 3 4 5 6 7 eight\n", "line 1: must have 12"},
            {kitti + tum, "line 2: must have 12"},
@@ -120,6 +119,62 @@ TEST_F(Poses, ThatCannotBeUsedAreNamedWithTheirLine) {
   ReplayOptions options;
   options.poses = path_ / "missing";
   EXPECT_THROW(open_source(path_, options), IoError);
+}
+
+std::string kitti_poses(int count) {
+  std::string lines;
+  for (int i = 0; i < count; ++i)
+    lines += "1 0 0 " + std::to_string(i) + " 0 1 0 0 0 0 1 0\n";
+  return lines;
+}
+
+TEST_F(Poses, OfKittiAreMatchedByTheNumbersInTheNamesIfFramesAreMissing) {
+  for (const auto& names :
+       std::vector<std::vector<std::string>>{{"000001.pcd", "000004.pcd", "000010.pcd"},
+                                             {"v2_scan_1.pcd", "v2_scan_4.pcd", "v2_scan_10.pcd"},
+                                             {"left1.pcd", "left4.pcd", "right10.pcd"}}) {
+    for (const auto& entry : std::filesystem::directory_iterator(path_))
+      std::filesystem::remove(entry);
+    for (const std::string& name : names)
+      add(name, 3);
+    write("poses.txt", kitti_poses(11));
+    ReplayOptions options{10, false, 0, 2};  // twice
+    options.poses = path_ / "poses.txt";
+    const auto source = open_source(path_, options);
+    EXPECT_EQ(source->take_warnings(),
+              (std::vector{(path_ / "poses.txt").string() +
+                           ": 11 poses of 3 frames: matched by the numbers in the file names, 1 to 10"}));
+    EXPECT_TRUE(source->take_warnings().empty());
+    Frame frame;
+    for (const int x : {1, 4, 10, 1, 4, 10}) {
+      ASSERT_EQ(source->next(frame, std::chrono::seconds(20)), Next::frame);
+      ASSERT_TRUE(frame.pose);
+      EXPECT_EQ(frame.pose->translation().x(), x) << names[0];
+    }
+  }
+}
+
+TEST_F(Poses, OfKittiAreInTheOrderOfTheFramesIfThereAreAsMany) {
+  add("4.pcd", 3);
+  add("9.pcd", 3);
+  const auto poses = of_frames(kitti_poses(2));
+  ASSERT_EQ(poses.size(), 2U);
+  EXPECT_EQ(poses[1]->translation().x(), 1);
+}
+
+TEST_F(Poses, OfAnotherCountAreRefusedWithoutANumberForEachName) {
+  for (const auto& names : std::vector<std::vector<std::string>>{{"1.pcd", "7.pcd"},
+                                                                 {"1.pcd", "front.pcd"},
+                                                                 {"1_2.pcd", "2_3.pcd"},
+                                                                 {"1.5.pcd", "1.6.pcd"},
+                                                                 {"a1.pcd", "b1.pcd"},
+                                                                 {"12-00-01.pcd", "12-00-02.pcd"}}) {
+    for (const auto& entry : std::filesystem::directory_iterator(path_))
+      std::filesystem::remove(entry);
+    for (const std::string& name : names)
+      add(name, 3);
+    EXPECT_THROW(of_frames(kitti_poses(7)), IoError) << names[0];
+  }
 }
 
 TEST_F(Poses, RepeatWithTheirRecording) {

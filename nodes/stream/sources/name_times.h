@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Times in file names. Names use many formats, but one format must fit all names of a folder.
+// Times and numbers in file names. Names use many formats, but one format must fit all names of a folder.
 #pragma once
 
 #include <cstdint>
@@ -48,5 +48,10 @@ struct NameTimes {
 /// Fractions are usually decimals: 12.5 means 12.500 s. If fractions have different lengths, they may also be
 /// whole milli-, micro- or nanoseconds without leading zeros: 12.5 then means 12.005 s.
 NameTimes times_of_names(const std::vector<std::string>& stems);
+
+/// Returns the number of each name: its only digits, or the only digits that differ between the names.
+/// Returns an empty list if a name has none, if a name has a time (stamp_in_name()), or if two names have the
+/// same number.
+std::vector<std::size_t> numbers_of_names(const std::vector<std::string>& stems);
 
 }  // namespace pcl_bv::detail

@@ -80,7 +80,8 @@ std::optional<Pose> camera_from_calibration(const std::filesystem::path& poses) 
 
 }  // namespace
 
-Poses::Poses(const std::filesystem::path& file, std::optional<std::size_t> frames) {
+Poses::Poses(const std::filesystem::path& file, std::optional<std::size_t> frames,
+             std::vector<std::size_t> frame_numbers) {
   std::istringstream stream(text_of(file));
   std::size_t line_number = 0, columns = 0;
   const auto fail = [&](const std::string& what) {
@@ -111,13 +112,21 @@ Poses::Poses(const std::filesystem::path& file, std::optional<std::size_t> frame
     fail(
         "frames whose number is not known before need poses by time (TUM: 8 numbers per line), not by "
         "frame (KITTI)");
-  if (poses_.size() != *frames)
-    fail(std::to_string(poses_.size()) + " poses of " + std::to_string(*frames) + " frames");
+  if (poses_.size() == *frames) return;
+  const std::string counts =
+      std::to_string(poses_.size()) + " poses of " + std::to_string(*frames) + " frames";
+  if (frame_numbers.empty()) fail(counts);
+  const auto [first, last] = std::minmax_element(frame_numbers.begin(), frame_numbers.end());
+  const std::string range = std::to_string(*first) + " to " + std::to_string(*last);
+  if (*last >= poses_.size()) fail(counts + ", whose names have the numbers " + range);
+  note_ = file.string() + ": " + counts + ": matched by the numbers in the file names, " + range;
+  numbers_ = std::move(frame_numbers);
 }
 
 std::optional<Pose> Poses::at(std::size_t number, std::int64_t stamp_ns) const {
   if (poses_.empty()) return std::nullopt;
   if (!by_stamp_) {  // no pose if the recording has more clouds than its index tells
+    if (!numbers_.empty()) number = numbers_.at(number);
     return number < poses_.size() ? std::optional(poses_[number].second) : std::nullopt;
   }
   return pose_at(poses_, stamp_ns);

@@ -24,7 +24,13 @@ class Replay : public FrameSource {
         times_(std::move(times)),
         end_(options.loops < SIZE_MAX / length ? length * std::max<std::size_t>(options.loops, 1)
                                                : SIZE_MAX) {
-    if (!options.poses.empty()) poses_ = Poses(options.poses, length);
+    if (!times_.warning.empty()) warnings_.push_back(std::move(times_.warning));
+    if (options.poses.empty()) return;
+    std::vector<std::string> stems;
+    for (const std::filesystem::path& file : files_)
+      stems.push_back(file.stem().string());
+    poses_ = Poses(options.poses, length, numbers_of_names(stems));
+    if (!poses_.note().empty()) warnings_.push_back(poses_.note());
   }
 
   Next next(Frame& frame, std::chrono::milliseconds) override {
@@ -44,10 +50,7 @@ class Replay : public FrameSource {
     return Next::frame;
   }
 
-  std::vector<std::string> take_warnings() override {
-    if (times_.warning.empty()) return {};
-    return {std::exchange(times_.warning, {})};
-  }
+  std::vector<std::string> take_warnings() override { return std::exchange(warnings_, {}); }
 
  private:
   Frame named(std::size_t index) const {
@@ -69,6 +72,7 @@ class Replay : public FrameSource {
   NameTimes times_;
   std::uint64_t end_, seq_ = 0;
   Poses poses_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace

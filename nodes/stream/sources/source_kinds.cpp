@@ -155,7 +155,10 @@ std::string source_syntax() {
 std::unique_ptr<FrameSource> open_source(const std::string& name, const ReplayOptions& options) {
   if (!(options.rate_hz >= kMinRate && options.rate_hz <= kMaxRate))
     throw std::invalid_argument("rate: is not a number from 0.001 to 1000000");
-  return source_kind(name).open(name, options);
+  const SourceKind& kind = source_kind(name);
+  if (!options.topic.empty() && kind.times != FrameTimes::messages)
+    throw std::invalid_argument("topic: only useful with a recording");
+  return kind.open(name, options);
 }
 
 }  // namespace pcl_bv

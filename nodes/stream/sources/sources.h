@@ -25,9 +25,14 @@ class Poses {
   Poses() = default;
 
   /// Throws IoError, with the file and the line, for content that cannot be read. `frames` is the number of
-  /// frames, if known. For poses by frame number, the constructor also throws IoError if there are not
-  /// `frames` poses or if `frames` is nullopt.
-  Poses(const std::filesystem::path& file, std::optional<std::size_t> frames);
+  /// frames, if known. `frame_numbers` are the numbers in the names of the frames, if all have one. For poses
+  /// by frame number, the constructor also throws IoError if `frames` is nullopt, or if there are not
+  /// `frames` poses and not one for each of `frame_numbers`, counted from 0.
+  Poses(const std::filesystem::path& file, std::optional<std::size_t> frames,
+        std::vector<std::size_t> frame_numbers = {});
+
+  /// Returns a line that says how frames and poses are matched if their numbers differ, otherwise nothing.
+  const std::string& note() const { return note_; }
 
   /// Returns the pose of the frame with this number (KITTI) or this stamp (TUM), depending on the format of
   /// the file. Returns nullopt if the file has no such pose.
@@ -35,7 +40,9 @@ class Poses {
 
  private:
   bool by_stamp_ = false;
-  std::vector<StampedPose> poses_;  // sorted by stamp
+  std::vector<StampedPose> poses_;    // sorted by stamp
+  std::vector<std::size_t> numbers_;  // of the poses of frames; empty if they are 0, 1, 2, ...
+  std::string note_;
 };
 
 /// Returns the stamp of frame `number` at ReplayOptions::rate_hz.

@@ -85,7 +85,9 @@ struct ReplayOptions {
   /// File of sensor poses. If empty, frames have poses only if their source generates poses. Empty lines and
   /// lines that begin with # are skipped.
   ///
-  /// KITTI files have one line per frame with 12 numbers, the upper three rows of the pose matrix. If a
+  /// KITTI files have one line per frame with 12 numbers, the upper three rows of the pose matrix. If files
+  /// are missing, so that their number differs from that of the poses, the number in each file name is the
+  /// number of its line, from 0, and take_warnings() says so. Otherwise open_source() throws IoError. If a
   /// calib.txt next to the file has a line `Tr:`, the poses are those of the left camera and are converted to
   /// the sensor.
   ///
@@ -130,7 +132,8 @@ std::string source_syntax();
 /// Throws IoError if there is no cloud or if poses cannot be read. Throws std::invalid_argument
 /// - for a rate out of range or an unknown sequence;
 /// - if stamps are to come from names (ReplayOptions::own_stamps) and no name has a time;
-/// - if the topic does not exist, or if no topic is given and several topics have clouds.
+/// - if the topic does not exist or the source has no topics, or if no topic is given and several topics have
+///   clouds.
 ///
 /// Also throws as Middleware::receiver() does.
 std::unique_ptr<FrameSource> open_source(const std::string& name, const ReplayOptions& options = {});
