@@ -126,6 +126,20 @@ TEST(Fit, AKdopOfAnyDirectionsEnclosesInExactArithmetic) {
   }
 }
 
+struct Detection {
+  std::uint16_t id;
+  float x, y, z;
+  double time;
+  bool valid;
+};
+
+TEST(View, OfAStructMayHaveOtherMembersOfAnyTypes) {
+  const std::vector<Detection> points{{7, 1, 2, 3, 0.5, true}, {8, -1, 5, 4, 0.25, false}};
+  const Fitted<Aabb> box = fit_aabb(view(points));
+  EXPECT_EQ(box->min(), Eigen::Vector3d(-1, 2, 3));
+  EXPECT_EQ(box->max(), Eigen::Vector3d(1, 5, 4));
+}
+
 TEST(Fit, StatusTellsFlatFromSolidFromNothing) {
   Aabb box;
   EXPECT_EQ(test::take(fit_aabb(test::gaussian<float>(10, 1).view()), box).status, EstimationStatus::ok);

@@ -221,19 +221,33 @@ PointView view_records(const Record* records, std::size_t count) {
   return view;
 }
 
+namespace detail {
+/// Whether a type has elements at data(), such as Eigen::Vector3f.
+template <typename Record, typename = void>
+struct has_data : std::false_type {};
+template <typename Record>
+struct has_data<Record, std::void_t<decltype(*std::declval<const Record&>().data())>> : std::true_type {};
+}  // namespace detail
+
 /// Returns a view of a vector of points. A point is either a struct that view_records() takes, or a
 /// fixed-size array of float or double whose first three elements are x, y, z. Such arrays are
 /// Eigen::Vector3f, Eigen::Vector4d or std::array<float, 3>, for example. The vector must outlive the view.
 template <typename Record, typename Allocator>
 PointView view(const std::vector<Record, Allocator>& points) {
+  constexpr bool is_array = detail::has_data<Record>::value;
+  static_assert(has_xyz<Record>::value || is_array,
+                "the point type must have public members x, y and z, all float or all double, or be an array "
+                "such as Eigen::Vector3f or std::array<double, 3>");
   if constexpr (has_xyz<Record>::value) {
     return view_records(points.data(), points.size());
-  } else {
+  } else if constexpr (is_array) {
     using Scalar = std::remove_cv_t<std::remove_pointer_t<decltype(std::declval<const Record&>().data())>>;
     static_assert(std::is_trivially_destructible_v<Record> && sizeof(Record) >= 3 * sizeof(Scalar),
                   "the point type must hold at least three coordinates itself");
     if (points.empty()) return {};
     return PointView::of(points.data()->data(), sizeof(Record), points.size());
+  } else {
+    return {};
   }
 }
 template <typename Record, typename Allocator>
