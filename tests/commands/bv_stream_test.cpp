@@ -295,14 +295,46 @@ TEST_F(BvStream, SaysInALineWhichOptionHasNoEffect) {
   EXPECT_EQ(said({"--track", "--grow", "--smooth"}), "");
 }
 
-TEST_F(BvStream, MakesTheFoldersOfItsOutputs) {
-  const Result result =
-      stream({"--source", "synth:street-sequence:1", "--rate", "max", "--volume", "aabb", "--sink",
-              "csv:" + at("c/new/a.csv"), "--sink", "jsonl:" + at("j/new/a.jsonl"), "--sink",
-              "vtp:" + at("v/new"), "--stats", at("s/new/a.json")});
+TEST_F(BvStream, CreatesTheFoldersThatSinksNameAndNoOthers) {
+  const std::vector<std::string> some{"--source", "synth:street-sequence:1", "--rate", "max", "--volume",
+                                      "aabb"};
+  std::vector<std::string> good = some;
+  for (const char* sink : {"vtp", "image", "labels", "rosbag2"})
+    good.insert(good.end(), {"--sink", std::string(sink) + ":" + at(sink)});
+  const Result result = stream(good);
   ASSERT_EQ(result.status, 0) << result.err;
-  for (const char* name : {"c/new/a.csv", "j/new/a.jsonl", "v/new/frames.pvd", "s/new/a.json"})
+  for (const char* name :
+       {"vtp/frames.pvd", "image/frame000000.png", "labels/frame000000.pcd", "rosbag2/metadata.yaml"})
     EXPECT_NE(read_file(at(name)), "") << name;
+  for (const char* sink : {"csv", "jsonl", "kitti", "mcap", "vtp", "image", "labels", "rosbag2"}) {
+    std::vector<std::string> bad = some;
+    bad.insert(bad.end(), {"--sink", std::string(sink) + ":" + at("no/x")});
+    EXPECT_EQ(stream(bad).status, 1) << sink;
+    EXPECT_FALSE(std::filesystem::exists(at("no"))) << sink;
+  }
+  std::vector<std::string> stats = some;
+  stats.insert(stats.end(), {"--stats", at("no/x")});
+  EXPECT_EQ(stream(stats).err, "bv_stream: " + at("no/x") + ": its folder does not exist\n");
+}
+
+TEST_F(BvStream, RefusesOptionsThatItsSourceDoesNotUse) {
+  const std::string cloud =
+                        file("a.pcd", "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 1\nDATA ascii\n1 2 3\n"),
+                    synth = "synth:street-sequence:1";
+  for (const auto& [arguments, what] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"--source", cloud, "--topic", "/points"}, "--topic: only useful with a recording"},
+           {{"--source", synth, "--topic", "/points"}, "--topic: only useful with a recording"},
+           {{"--source", cloud, "--bin-fields", "5"}, "--bin-fields: only useful with .bin files"},
+           {{"--source", at(""), "--bin-fields", "5"}, "--bin-fields: only useful with .bin files"},
+           {{"--source", synth, "--bin-fields", "5"}, "--bin-fields: only useful with .bin files"},
+           {{"--source", synth, "--stamps", "name"}, "--stamps name: only useful with files"},
+           {{"--source", cloud, "--sync", "9"}, "--sync: only useful with --target-frame"}}) {
+    const Result result = stream(arguments);
+    EXPECT_EQ(result.status, 2) << what;
+    EXPECT_THAT(result.err, HasSubstr("bv_stream: " + what));
+  }
+  file("b.bin", std::string(16, '\0'));
+  EXPECT_EQ(stream({"--source", at(""), "--bin-fields", "4", "--rate", "max"}).status, 0);
 }
 
 TEST_F(BvStream, ASignalLetsTheQueueBeDoneAndWritesTheStatistics) {

@@ -46,16 +46,28 @@ TEST_F(PcdBv, OutputThatCannotBeWrittenIsStatusOneAndOneLine) {
   EXPECT_TRUE(fs::is_regular_file(cloud));
 }
 
-TEST_F(PcdBv, FoldersOfEveryOutputAreMade) {
+TEST_F(PcdBv, AnOutputInAMissingFolderIsAnErrorThatCreatesNothing) {
   const std::string cloud = ascii("c.pcd", {"0 0 0", "1 2 3"});
-  for (const auto& [option, name] : {std::pair{"--output", "o/new/out.txt"},
-                                     {"--labels", "l/new/x.pcd"},
-                                     {"--mesh", "m/new/x.ply"},
-                                     {"--image", "i/new/x.png"}}) {
-    const Result result = run({option, at(name), cloud});
-    EXPECT_EQ(result.status, 0) << result.err;
-    EXPECT_GT(fs::file_size(at(name)), 0U);
+  for (const auto& [option, name] : {std::pair{"--output", "no/x"},
+                                     {"--partial", "no/folder/x"},
+                                     {"--labels", "no/x.pcd"},
+                                     {"--mesh", "no/x.ply"},
+                                     {"--mesh", "no/x.glb"},
+                                     {"--image", "no/x.png"},
+                                     {"--view-html", "no/x.html"},
+                                     {"--labels", "no/folder/"},
+                                     {"--objects", "no/folder"}}) {
+    std::vector<std::string> arguments{option, at(name), "--volume", "aabb", cloud};
+    if (option == std::string("--objects"))
+      arguments.insert(arguments.end(), {"--cluster", "9", "--min-size", "1"});
+    const Result result = run(arguments);
+    EXPECT_EQ(result.status, 1) << option;
+    EXPECT_EQ(result.error_lines(), 1U) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("no/")) << option;
+    EXPECT_FALSE(fs::exists(at("no"))) << option;
   }
+  EXPECT_EQ(run({"--output", at("no/x"), cloud}).err,
+            "pcd_bv: " + at("no/x") + ": its folder does not exist\n");
 }
 
 TEST_F(PcdBv, AFileOfNoFormatIsRefusedBeforeAnyWork) {
@@ -106,13 +118,13 @@ TEST_F(PcdBv, FailedInputLeavesOldLabelsAndPicture) {
 TEST_F(PcdBv, SeveralInputsPutTheirFilesIntoANewFolder) {
   ascii("in/a.pcd", {"0 0 0", "1 2 3"});
   ascii("in/b.c.pcd", {"0 0 0", "1 2 3"});
-  const Result result = run({"--labels", at("new/labels"), "--image", at("new/images"), "--mesh",
-                             at("new/meshes"), at("in"), "synth:box:500:2"});
+  const Result result = run({"--labels", at("labels"), "--image", at("images"), "--mesh", at("meshes/"),
+                             at("in"), "synth:box:500:2"});
   EXPECT_EQ(result.status, 0) << result.err;
   for (const std::string stem : {"a", "b.c", "box-500-2"}) {
-    EXPECT_GT(read_pcd(at("new/labels/" + stem + ".pcd")).size(), 0u);
-    EXPECT_THAT(read_file(at("new/images/" + stem + ".png")), StartsWith("\x89PNG"));
-    EXPECT_THAT(read_file(at("new/meshes/" + stem + ".ply")), StartsWith("ply\n"));
+    EXPECT_GT(read_pcd(at("labels/" + stem + ".pcd")).size(), 0u);
+    EXPECT_THAT(read_file(at("images/" + stem + ".png")), StartsWith("\x89PNG"));
+    EXPECT_THAT(read_file(at("meshes/" + stem + ".ply")), StartsWith("ply\n"));
   }
 }
 

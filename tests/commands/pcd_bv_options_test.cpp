@@ -32,6 +32,25 @@ TEST_F(PcdBv, VersionListsTheInstructionSets) {
   EXPECT_THAT(result.out, HasSubstr("instruction sets: scalar"));
 }
 
+TEST_F(PcdBv, OptionsThatNoInputUsesAreRefused) {
+  const std::string cloud = ascii("a.pcd", {"1 2 3"}), text = file("a.xyz", "1 2 3\n"),
+                    bin = file("a.bin", std::string(12, '\0'));
+  for (const auto& [arguments, what] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"--topic", "/points", cloud}, "--topic: only useful with a recording"},
+           {{"--topic", "/points", "synth:box"}, "--topic: only useful with a recording"},
+           {{"--bin-fields", "3", cloud, text}, "--bin-fields: only useful with .bin files"},
+           {{"--columns", "x,y,z", cloud, bin}, "--columns: only useful with text files"},
+           {{"--together", "--bin-fields", "3", cloud}, "--bin-fields: only useful with .bin files"}}) {
+    const Result result = run(arguments);
+    EXPECT_EQ(result.status, 2) << what;
+    EXPECT_THAT(result.err, testing::StartsWith("pcd_bv: " + what));
+    EXPECT_EQ(result.out, "");
+  }
+  EXPECT_EQ(run({"--bin-fields", "3", "--columns", "x,y,z", cloud, text, bin}).status, 0);
+  EXPECT_EQ(run({"--bin-fields", "3", at("")}).status, 0);
+  EXPECT_THAT(run({"--topic", "/points", at("gone")}).err, HasSubstr("no such file"));
+}
+
 TEST_F(PcdBv, WrongUseIsRefusedInOneLineBeforeAnyWork) {
   const std::string good = ascii("good.pcd", {"1 2 3"});
   const std::vector<std::vector<std::string>> cases = {

@@ -5,6 +5,7 @@
 
 #include "options.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "commands/shared/command_line.h"
@@ -15,6 +16,7 @@
 #include "commands/shared/values.h"
 #include "pcl_bv/io/list_clouds.h"
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/io/read_cloud.h"
 #include "pipeline/config/names.h"
 
 namespace pcl_bv::detail {
@@ -104,7 +106,10 @@ void claim_outputs(const StreamOptions& options, const std::string& config) {
                   : claims.claim(sink.target / ("frame000000" + std::string(files)));
     if (files == ".pcd") claims.reject_input(sink.target);  // the source would read the clouds of the sink
   }
-  if (options.stats) claims.claim(*options.stats);
+  if (options.stats) {
+    claims.claim(*options.stats);
+    require_folder_of(*options.stats);
+  }
 }
 
 // Returns where all sources take the times of frames from. Sources with own times and sources without cannot
@@ -116,6 +121,36 @@ FrameTimes common_times(const std::vector<std::string>& sources) {
       throw UsageError("--source: " + sources.front() + " and " + source +
                        " are of different kinds and have no common stamps");
   return times;
+}
+
+bool exists(const std::string& source) {
+  std::error_code unknown;
+  return std::filesystem::exists(source, unknown);
+}
+
+// Returns whether the source is a .bin file or a folder with one.
+bool has_bin_files(const std::string& source) {
+  const auto is_bin = [](const std::filesystem::path& file) { return lower_case_extension(file) == ".bin"; };
+  std::error_code unknown;
+  if (!std::filesystem::is_directory(source, unknown)) return is_bin(source);
+  const std::vector<std::filesystem::path> clouds = list_clouds(source);
+  return std::any_of(clouds.begin(), clouds.end(), is_bin);
+}
+
+// Throws UsageError for options that have no effect on these sources.
+void reject_useless_for_sources(const CommandLine& line, const Texts& t, const StreamConfig& config,
+                                FrameTimes times) {
+  const bool files = times == FrameTimes::names, merges = !config.rig.frame.empty();
+  for (const std::string& source : t.sources)
+    if (files && !exists(source)) throw IoError(source + ": no such file or folder");
+  const bool bin =
+      files && line.given("--bin-fields") && std::any_of(t.sources.begin(), t.sources.end(), has_bin_files);
+  const bool names_topics = merges && !config.rig.sensors.empty();
+  reject_useless({{"--topic", line.given("--topic"), times == FrameTimes::messages, "a recording"},
+                  {"--topic", line.given("--topic"), !names_topics, "no topics in rig.sensors"},
+                  {"--bin-fields", line.given("--bin-fields"), bin, ".bin files"},
+                  {"--stamps name", t.stamps == "name", files, "files, whose names have times"},
+                  {"--sync", line.given("--sync"), merges, "--target-frame"}});
 }
 
 void read_replay(const CommandLine& line, const Texts& t, StreamOptions& options) {
@@ -145,13 +180,7 @@ void read_replay(const CommandLine& line, const Texts& t, StreamOptions& options
     throw UsageError(
         "--stamps rate: not with --target-frame, because transforms have the times of the recording");
   replay.topic = t.topic;
-  if (line.given("--topic") && times != FrameTimes::messages) {
-    std::error_code unknown;
-    for (const std::string& source : options.sources)
-      if (times == FrameTimes::names && !std::filesystem::exists(source, unknown))
-        throw IoError(source + ": no such file or folder");
-    throw UsageError("--topic: only useful with a recording");
-  }
+  reject_useless_for_sources(line, t, options.config, times);
   if (line.given("--bin-fields")) replay.bin_fields = parse_bin_fields(t.bin_fields);
 }
 

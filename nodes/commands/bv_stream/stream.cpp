@@ -293,10 +293,7 @@ int stream(const StreamOptions& options, const std::atomic<bool>& interrupted) {
       no_frame || (stats.frames.in > 0 && stats.frames.in == stats.frames.dropped_error);
   int status = sinks.failed() || reader.failed || nothing_read ? 1 : 0;
   try {
-    if (options.stats) {
-      create_parent_folders(*options.stats);
-      write_file_atomically(*options.stats, stats_json(stats) + '\n');
-    }
+    if (options.stats) write_file_atomically(*options.stats, stats_json(stats) + '\n');
   } catch (const IoError& error) {
     report_problem(options.stats->string() + ": " + error.what());
     status = 1;

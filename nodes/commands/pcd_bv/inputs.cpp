@@ -13,6 +13,7 @@
 #include "pcl_bv/io/list_clouds.h"
 #include "pcl_bv/io/raw_cloud.h"
 #include "pcl_bv/io/read_cloud.h"
+#include "pcl_bv/io/text_cloud.h"
 #include "pcl_bv/parallel/for_each_chunk.h"
 #include "pcl_bv/report/meshes.h"
 #include "pcl_bv/synth/synth.h"
@@ -133,6 +134,27 @@ std::string stem(const std::string& input) {
   return name;
 }
 
+// Throws UsageError for options that have no effect on any of the inputs. An input that cannot be read counts
+// as one of any kind, because its own error follows.
+void reject_useless_for_inputs(const Options& options, const std::vector<Job>& jobs) {
+  const auto any = [&](const auto& matches) {
+    return std::any_of(jobs.begin(), jobs.end(), [&](const Job& job) {
+      std::error_code unknown;
+      const bool cloud_file = !job.recording && !is_synth(job.input);
+      return job.error || matches(job) || (cloud_file && !fs::exists(job.input, unknown));
+    });
+  };
+  const auto is_bin = [](const Job& job) {
+    return !job.recording && lower_case_extension(job.input) == ".bin";
+  };
+  const auto is_text = [](const Job& job) { return !job.recording && is_text_name(job.input); };
+  const auto is_recorded = [](const Job& job) { return job.recording != nullptr; };
+  reject_useless(
+      {{"--bin-fields", options.bin_fields > 0, any(is_bin), ".bin files"},
+       {"--columns", !options.columns.empty(), any(is_text), "text files: .xyz, .csv, .txt, .asc or .pts"},
+       {"--topic", !options.topic.empty(), any(is_recorded), "a recording"}});
+}
+
 }  // namespace
 
 bool is_synth(const std::string& input) {
@@ -148,6 +170,7 @@ std::vector<Job> list_inputs(const Options& options) {
       jobs.push_back(std::move(job));
     }
   }
+  reject_useless_for_inputs(options, jobs);
   return jobs;
 }
 
@@ -181,10 +204,13 @@ void claim_tile_labels(const Options& options, Job& job, OutputClaims& claims) {
 std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std::shared_ptr<Tiles> tiles) {
   const bool one = options.tiled || options.merge;
   const bool several = !one && (inputs.size() > 1 || is_folder(options.inputs.front()));
-  const auto target = [&](const char* option, const fs::path& given, const Job& job, const char* extension) {
+  const auto target = [&](const char* option, const fs::path& given, Job& job, const char* extension) {
     reject_dash(given);
-    if (several || !given.has_filename() || is_folder(given.string()))
-      return given / (stem(job.input) + extension);
+    if (several || !given.has_filename() || is_folder(given.string())) {
+      const fs::path file = given / (stem(job.input) + extension);
+      job.folders.insert(file.parent_path());
+      return file;
+    }
     if (given.has_extension() || needs_no_suffix(given)) return given;
     reject_value(option, given.string(), std::string("has no suffix such as ") + extension);
   };
@@ -227,9 +253,11 @@ std::vector<Job> plan_jobs(const Options& options, std::vector<Job> inputs, std:
       claims.claim(job.image.emplace(target("--image", *options.image, job, image_extension)));
     if (options.view_html)
       claims.claim(job.view_html.emplace(target("--view-html", *options.view_html, job, ".html")));
-    if (options.objects)
+    if (options.objects) {
       claims.claim_folder(
           job.objects.emplace(several ? *options.objects / stem(job.input) : *options.objects));
+      if (several) job.folders.insert(job.objects->parent_path());
+    }
   }
   return jobs;
 }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,12 +27,13 @@ struct Job {
   std::optional<std::string> error{};  ///< Why nothing can be loaded, such as "no cloud in this recording".
   std::optional<std::filesystem::path> labels{}, mesh{}, image{}, view_html{};
   std::optional<std::filesystem::path> objects{};  ///< Folder for the points of each object.
+  std::set<std::filesystem::path> folders{};       ///< Folders that options name, to be created.
   std::size_t bin_fields = 0;                      ///< Floats per point of .bin files, as in read_cloud().
   std::string columns{};                           ///< Columns of text files, as in read_cloud().
   std::shared_ptr<RecordedClouds> recording{};     ///< Recording of cloud `number`; `input` is FILE#number.
   std::size_t number = 0;
   std::optional<std::size_t> frame{};  ///< Number among the inputs, from 0, if there are several.
-  std::shared_ptr<Tiles> tiles{};  ///< Set for a tiled cloud (--together); `input` is kTiledName.
+  std::shared_ptr<Tiles> tiles{};      ///< Set for a tiled cloud (--together); `input` is kTiledName.
   std::vector<std::filesystem::path> tile_labels{};  ///< Files with labels of the tiles, if requested.
   std::vector<std::string> partials{};               ///< Files of partial results (--merge).
 };

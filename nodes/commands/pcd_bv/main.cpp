@@ -3,6 +3,7 @@
 
 // The command pcd_bv, which computes bounding volumes of point clouds.
 
+#include "commands/shared/output_claims.h"
 #include "commands/shared/run_command.h"
 #include "inputs.h"
 #include "options.h"
@@ -18,6 +19,7 @@ int main(int argc, char** argv) {
     const auto parsed = parse_options(argc, argv);
     if (const auto* text = std::get_if<std::string>(&parsed)) return print_text(*text);
     const auto& options = std::get<Options>(parsed);
+    if (options.output) require_folder_of(*options.output);
     if (options.update) return static_cast<int>(update_tilesets(options));
     if (options.watch) return static_cast<int>(watch_folder(options));
     const std::vector<Job> jobs = plan_jobs(options);

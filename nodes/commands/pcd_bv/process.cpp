@@ -55,11 +55,12 @@ void check(const PointView& cloud, const FrameResult& result, const Options& opt
   }
 }
 
-/// Creates the folder of `path` and runs `write`, which creates the file. Reports errors.
+/// Runs `write`, which creates the file `path`. Before, creates its folder if an option names the folder.
+/// Reports errors.
 template <typename Write>
-Status write_file(const std::filesystem::path& path, const Write& write) {
+Status write_file(const Job& job, const std::filesystem::path& path, const Write& write) {
   try {
-    create_parent_folders(path);
+    if (job.folders.count(path.parent_path()) > 0) create_folder(path.parent_path());
     write();
     return Status::done;
   } catch (const std::exception& error) {
@@ -82,27 +83,31 @@ Status write_files(const Job& job, const Options& options, const Frame& frame, c
   if (job.mesh)
     status = write_mesh(job, outcome.entries(), {loaded.xyz(), label, 200000, options.pipeline.ground.up});
   if (job.objects) {
-    status = worse(status, write_objects(*job.objects, result.clusters.size(), execution_of(options).parallel,
-                                         [&](std::size_t id) {
-                                           write_object(*job.objects, id, result.points_of(id, loaded.xyz()));
-                                         }));
+    Status objects = Status::failed;
+    const auto write = [&](std::size_t id) {
+      write_object(*job.objects, id, result.points_of(id, loaded.xyz()));
+    };
+    static_cast<void>(write_file(job, *job.objects, [&] {
+      objects = write_objects(*job.objects, result.clusters.size(), execution_of(options).parallel, write);
+    }));
+    status = worse(status, objects);
   }
   if (job.image) {
-    status = worse(status, write_file(*job.image, [&] {
+    status = worse(status, write_file(job, *job.image, [&] {
                      Picture picture = picture_of(frame, result, label);
                      picture.from = options.view;
                      write_picture(*job.image, picture);
                    }));
   }
   if (job.view_html) {
-    status = worse(status, write_file(*job.view_html, [&] {
+    status = worse(status, write_file(job, *job.view_html, [&] {
                      Report report = outcome.report;
                      report.clusters = outcome.entries();
                      write_file_atomically(*job.view_html, view_html(frame, result, report, label));
                    }));
   }
   if (job.labels) {
-    status = worse(status, write_file(*job.labels, [&] {
+    status = worse(status, write_file(job, *job.labels, [&] {
                      RawCloud cloud = loaded.take();
                      set_uint32_field(cloud, "label", label);
                      write_pcd(*job.labels, cloud);
@@ -305,7 +310,7 @@ Status detail::report_failures(const std::string& file, const ClusterSource& clu
 
 Status detail::write_mesh(const Job& job, const std::vector<ClusterEntry>& clusters, const GlbCloud& cloud) {
   if (!job.mesh) return Status::done;
-  return write_file(*job.mesh, [&] {
+  return write_file(job, *job.mesh, [&] {
     const MeshFormat format = mesh_format(*job.mesh).value_or(MeshFormat::ply);
     if (format == MeshFormat::glb) return write_file_atomically(*job.mesh, volumes_glb(clusters, cloud));
     write_volumes(*job.mesh, clusters, format);

@@ -5,6 +5,7 @@
 
 #include <system_error>
 
+#include "pcl_bv/io/raw_cloud.h"
 #include "values.h"
 
 namespace pcl_bv::detail {
@@ -41,6 +42,13 @@ bool needs_no_suffix(const fs::path& file) {
 void reject_dash(const fs::path& output) {
   if (output == "-")
     throw UsageError("-: is not a file; use /dev/stdout for standard output, ./- for a file of this name");
+}
+
+void require_folder_of(const fs::path& file) {
+  const fs::path folder = file.parent_path();
+  std::error_code unknown;
+  if (!folder.empty() && fs::status(folder, unknown).type() == fs::file_type::not_found)
+    throw IoError(file.string() + ": its folder does not exist");
 }
 
 void OutputClaims::add_input(const fs::path& file) {

@@ -19,6 +19,9 @@ bool needs_no_suffix(const std::filesystem::path& file);
 /// Throws UsageError if the path is `-`: outputs have no short name for standard output.
 void reject_dash(const std::filesystem::path& output);
 
+/// Throws IoError if the folder in which the file is to be created does not exist.
+void require_folder_of(const std::filesystem::path& file);
+
 /// The inputs and outputs of a command. Files are compared by canonical path, so links do not matter.
 class OutputClaims {
  public:

@@ -142,8 +142,7 @@ void SettingOptions::apply(StreamConfig& config) const {
 
 void SettingOptions::reject_useless(const PipelineConfig& config) const {
   const auto reject = [&](const char* option, bool useful, const char* needed) {
-    if (line_.given(option) && !useful)
-      throw UsageError(std::string(option) + ": only useful with " + needed);
+    detail::reject_useless({{option, line_.given(option), useful, needed}});
   };
   const bool clusters = config.cluster.tolerance > 0 || line_.given("--cluster");
   reject("--padding", !config.filter.regions.empty(), "--drop-inside or --keep-inside");

@@ -20,6 +20,12 @@ std::size_t parse_whole_number(std::string_view option, std::string_view text, s
   reject_value(option, text, range);
 }
 
+void reject_useless(std::initializer_list<OptionUse> uses) {
+  for (const OptionUse& use : uses)
+    if (use.given && !use.useful)
+      throw UsageError(std::string(use.option) + ": only useful with " + use.needed);
+}
+
 std::size_t parse_bin_fields(std::string_view text) {
   return parse_whole_number("--bin-fields", text, 3, 32);
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -34,6 +35,17 @@ auto parse_with(std::string_view option, const Text& text, Parse parse) {
 /// Parses a whole number from `min` to `max`. Throws UsageError for any other text.
 std::size_t parse_whole_number(std::string_view option, std::string_view text, std::size_t min = 0,
                                std::size_t max = std::numeric_limits<std::size_t>::max());
+
+/// An option of the command line that has an effect only on some inputs or with some other option.
+struct OptionUse {
+  const char* option;
+  bool given;
+  bool useful;
+  const char* needed;  ///< What it needs, such as "a recording".
+};
+
+/// Throws UsageError for the first option that is given but not useful.
+void reject_useless(std::initializer_list<OptionUse> uses);
 
 /// Parses the number of floats per point of .bin files, which is 3 to 32. Throws UsageError for any other
 /// text.
