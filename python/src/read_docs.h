@@ -40,7 +40,8 @@ source: a folder of clouds, a file as for read(), a recording (.mcap, .db3 or it
     'dds:TOPIC', or 'synth:street-sequence[:FRAMES[:SEED]]'.
 rate: frame rate in Hz. None: the stamps of a recording, or 10 Hz for other sources. The iterator does not
     wait to keep this rate.
-poses: a file of the sensor's poses, in KITTI's or TUM's format.
+poses: a file of the sensor's poses, in KITTI's or TUM's format. If files of a folder are missing, the
+    numbers in the file names select KITTI's lines.
 class_field: an integer field of the clouds, for Frame.classes.
 stamps: 'rate', 'name' (times in file names, or stamps of messages) or 'auto'.
 

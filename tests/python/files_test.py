@@ -160,6 +160,15 @@ class Files(unittest.TestCase):
         del frames
         self.assertTrue(np.array_equal(points, normal(10, 1)))
 
+    def test_poses_of_frames_that_are_missing_are_left_out_by_the_numbers_in_the_names(self):
+        for i in (0, 2):
+            pcl_bv.write(self.folder / f"00000{i}.pcd", normal(10, i))
+        poses = self.folder / "poses.txt"
+        poses.write_text("".join(f"1 0 0 {i} 0 1 0 0 0 0 1 0\n" for i in range(3)))
+        with self.assertWarnsRegex(UserWarning, "3 poses of 2 frames: matched by the numbers in the file names"):
+            frames = list(pcl_bv.frames(self.folder, poses=poses))
+        self.assertEqual([f.pose[0, 3] for f in frames], [0, 2])
+
     def test_volumes_come_back_from_json_bit_by_bit(self):
         points = normal(200, 45)
         volumes = pcl_bv.fit(points, ["aabb", "dop26", "sphere", "obb", "cylinder", "capsule", "ellipsoid",
