@@ -15,16 +15,6 @@ double metres_per_unit(const HesaiModel& model) {
 
 }  // namespace
 
-SineCosine hesai_rotation(double angle) {
-  const double whole = std::floor(angle);
-  const auto index = static_cast<long long>(whole) % static_cast<long long>(kFullCircle);
-  const auto [s, c] = sine_cosine_table()[static_cast<std::size_t>(
-      index < 0 ? index + static_cast<long long>(kFullCircle) : index)];
-  if (whole == angle) return {s, c};
-  const double rest = (angle - whole) / 100 * kHesaiDegree, cosine = 1 - rest * rest / 2;
-  return {s * cosine + c * rest, c * cosine - s * rest};
-}
-
 HesaiGeometry::HesaiGeometry(const HesaiModel& sensor, const HesaiCorrection& correction)
     : model(&sensor), mirrors(sensor.has_mirrors ? correction.mirrors : std::nullopt) {
   const double unit = metres_per_unit(sensor);
@@ -59,8 +49,8 @@ void HesaiGeometry::mirror(double azimuth, std::vector<HesaiDirection>& directio
     const auto corrected = [&](const std::vector<double>& table) {
       return (1 - part) * table[row + before] + part * table[row + after];
     };
-    const auto [sine, cosine] = hesai_rotation(deflected - m.azimuths[i] + corrected(m.azimuth_corrections));
-    const auto [up, level] = hesai_rotation(m.elevations[i] + corrected(m.elevation_corrections));
+    const auto [sine, cosine] = sine_cosine_of(deflected - m.azimuths[i] + corrected(m.azimuth_corrections));
+    const auto [up, level] = sine_cosine_of(m.elevations[i] + corrected(m.elevation_corrections));
     const double metres = unit * level;
     directions[i] = {Double2{metres * sine, metres * cosine}, unit * up};
   }

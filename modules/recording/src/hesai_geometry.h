@@ -49,7 +49,4 @@ struct HesaiGeometry {
   void mirror(double azimuth, std::vector<HesaiDirection>& directions) const;
 };
 
-/// Returns the rotation by an angle in hundredths of a degree, with an error below 1e-11.
-SineCosine hesai_rotation(double angle);
-
 }  // namespace pcl_bv::detail

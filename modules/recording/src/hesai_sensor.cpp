@@ -224,7 +224,7 @@ void HesaiSensor::add_points(const std::byte* block, std::size_t returns, double
     return add_returns(
         block, returns, time_ns, [=](std::size_t i) { return directions[i]; }, points);
   }
-  const auto [sine, cosine] = hesai_rotation(azimuth);
+  const auto [sine, cosine] = sine_cosine_of(azimuth);
   const Double2 of_x{cosine, -sine}, of_y{sine, cosine};
   const double *const xs = geometry.x.data(), *const ys = geometry.y.data(), *const zs = geometry.z.data();
   const auto rotated = [=](std::size_t i) { return HesaiDirection{xs[i] * of_x + ys[i] * of_y, zs[i]}; };

@@ -40,4 +40,16 @@ inline const std::vector<SineCosine>& sine_cosine_table() {
   return all;
 }
 
+/// Returns the sine and cosine of an angle in hundredths of a degree, with an error below 1e-11.
+inline SineCosine sine_cosine_of(double angle) {
+  constexpr double degree = 3.14159265358979323846 / 180;
+  constexpr auto circle = static_cast<long long>(kFullCircle);
+  const double whole = std::floor(angle);
+  const long long index = static_cast<long long>(whole) % circle;
+  const auto [s, c] = sine_cosine_table()[static_cast<std::size_t>(index < 0 ? index + circle : index)];
+  if (whole == angle) return {s, c};
+  const double rest = (angle - whole) / 100 * degree, cosine = 1 - rest * rest / 2;
+  return {s * cosine + c * rest, c * cosine - s * rest};
+}
+
 }  // namespace pcl_bv::detail

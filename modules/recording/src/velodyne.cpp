@@ -50,11 +50,18 @@ class VelodyneAssembler final : public SweepAssembler {
   }
 
  private:
+  // Returns the sensor whose predicted azimuth is closest to that of the packet, or null if none is close.
   VelodyneSensor* expecting(const Payload& packet) {
+    VelodyneSensor* closest = nullptr;
+    double smallest = 0;
     for (VelodyneSensor& sensor : sensors_) {
-      if (sensor.expects(packet)) return &sensor;
+      const double difference = sensor.difference(packet);
+      if (difference > VelodyneSensor::kMaxDifference || (closest != nullptr && difference >= smallest))
+        continue;
+      closest = &sensor;
+      smallest = difference;
     }
-    return nullptr;
+    return closest;
   }
 
   VelodyneSensor& add_sensor(SweepQueue& queue) { return sensors_.emplace_back(*model_, queue.sensors++); }
@@ -75,7 +82,7 @@ class VelodyneFamily final : public SensorFamily {
     return number_of(*model);
   }
 
-  std::string_view model_name(std::size_t model) const override { return name_of(velodyne_model(model)); }
+  std::string_view model_name(std::size_t model) const override { return velodyne_model(model).name; }
 
   std::unique_ptr<SweepAssembler> make_assembler(std::size_t model) const override {
     return std::make_unique<VelodyneAssembler>(velodyne_model(model));

@@ -5,113 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
-#include "packet_numbers.h"
-
 namespace pcl_bv::detail {
-
-// A sensor model. A block has 32 returns, one per beam in the order of `elevation`. A VLP-16 fires its 16
-// beams twice per block.
-struct VelodyneModel {
-  std::string_view name;
-  std::uint8_t product_id;  // the last byte of a packet
-  std::size_t beams;
-  double distance_unit;                                // metres
-  double block_ns, laser_ns;                           // mean time between blocks, and between lasers
-  std::array<double, kVelodyneLasers> elevation;       // of each beam, degrees
-  std::array<double, kVelodyneLasers> azimuth_offset;  // of each beam, degrees
-};
-
 namespace {
 
-constexpr std::size_t kBlock = 100, kBlocks = 12;
 constexpr double kDegree = 3.14159265358979323846 / 180;
-
-constexpr VelodyneModel kVelodyneModels[] = {
-    {"VLP-16",
-     0x22,
-     16,
-     0.002,
-     110'592,
-     2304,
-     {-15, 1, -13, 3, -11, 5, -9, 7, -7, 9, -5, 11, -3, 13, -1, 15},
-     {}},
-    {"HDL-32E",
-     0x21,
-     32,
-     0.002,
-     46'080,
-     1152,
-     {-30.67, -9.33,  -29.33, -8,     -28,    -6.67, -26.67, -5.33,  -25.33, -4,     -24,
-      -2.67,  -22.67, -1.33,  -21.33, 0,      -20,   1.33,   -18.67, 2.67,   -17.33, 4,
-      -16,    5.33,   -14.67, 6.67,   -13.33, 8,     -12,    9.33,   -10.67, 10.67},
-     {}},
-    {"VLP-32C",
-     0x28,
-     32,
-     0.004,
-     55'296,
-     1152,
-     {-25,    -1,     -1.667, -15.639, -11.31, 0,      -0.667, -8.843, -7.254, 0.333,  -0.333,
-      -6.148, -5.333, 1.333,  0.667,   -4,     -4.667, 1.667,  1,      -3.667, -3.333, 3.333,
-      2.333,  -2.667, -3,     7,       4.667,  -2.333, -2,     15,     10.333, -1.333},
-     {1.4, -4.2, 1.4, -1.4, 1.4, -1.4, 4.2, -1.4, 1.4, -4.2, 1.4, -1.4, 4.2, -1.4, 4.2, -1.4,
-      1.4, -4.2, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4, 1.4, -1.4, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4}}};
-
-constexpr double kMaxPause = 0.3e9;            // nanoseconds; azimuths cannot be predicted over longer pauses
-constexpr double kMaxPredictionError = 6'000;  // hundredths of a degree, for packets of the same sensor
-constexpr unsigned kLatePackets = 8;           // a complete sweep waits this number of packets for late ones
-
-int azimuth_of(const Payload& packet, std::size_t block) {
-  return little_endian<std::uint16_t>(packet.data + kBlock * block + 2);
-}
-
-const std::byte* return_of(const Payload& packet, std::size_t block, std::size_t laser) {
-  return packet.data + kBlock * block + 4 + 3 * laser;
-}
-
-// Returns the number of blocks per firing: 2 in dual return mode, else 1.
-std::size_t step_of(const Payload& packet) {
-  return std::to_integer<int>(packet.data[kVelodynePacket - 2]) == 0x39 ? 2 : 1;
-}
-
-// Returns the signed difference of two azimuths in hundredths of a degree, from -18000 to 18000.
-double azimuth_difference(double from, double to) {
-  return std::remainder(to - from, static_cast<double>(kFullCircle));
-}
-
-// Returns the rotation from the first to the last firing of the packet.
-double rotation_within(const Payload& packet) {
-  return azimuth_difference(azimuth_of(packet, 0), azimuth_of(packet, kBlocks - step_of(packet)));
-}
+constexpr double kMaxPause = 0.3e9;   // nanoseconds; azimuths cannot be predicted over longer pauses
+constexpr double kMaxTime = 4e9;      // nanoseconds, limit of SensorPoint::time_ns
+constexpr double kMinGap = 500;       // hundredths of a degree; smaller gaps do not limit the field of view
+constexpr unsigned kLatePackets = 8;  // a complete sweep waits this number of packets for late ones
 
 }  // namespace
-
-int velodyne_product(const Payload& packet) {
-  if (packet.size != kVelodynePacket || little_endian<std::uint16_t>(packet.data) != 0xEEFF) return -1;
-  return std::to_integer<int>(packet.data[kVelodynePacket - 1]);
-}
-
-const VelodyneModel* velodyne_model(const Payload& packet) {
-  const int product = velodyne_product(packet);
-  const auto* const found =
-      std::find_if(std::begin(kVelodyneModels), std::end(kVelodyneModels),
-                   [&](const VelodyneModel& model) { return model.product_id == product; });
-  return found == std::end(kVelodyneModels) ? nullptr : found;
-}
-
-std::string_view name_of(const VelodyneModel& model) {
-  return model.name;
-}
-
-std::size_t number_of(const VelodyneModel& model) {
-  return static_cast<std::size_t>(&model - std::begin(kVelodyneModels));
-}
-
-const VelodyneModel& velodyne_model(std::size_t number) {
-  return kVelodyneModels[number];
-}
 
 VelodyneSensor::VelodyneSensor(const VelodyneModel& model, std::size_t number)
     : model_(&model), number_(number) {
@@ -122,8 +28,11 @@ VelodyneSensor::VelodyneSensor(const VelodyneModel& model, std::size_t number)
                                           sorted.begin());
     sine_[i] = std::sin(model.elevation[i] * kDegree);
     cosine_[i] = std::cos(model.elevation[i] * kDegree);
-    azimuth_offset_[i] =
-        static_cast<std::size_t>(std::lround(100 * model.azimuth_offset[i]) + static_cast<long>(kFullCircle));
+    azimuth_offset_[i] = static_cast<double>(std::lround(100 * model.azimuth_offset[i]));
+  }
+  for (std::size_t i = 0; i < kVelodyneLasers; ++i) {
+    laser_ns_[i] = model.laser_time(i);
+    laser_part_[i] = laser_ns_[i] / model.block_ns;
   }
   sweep_ = previous_ = empty_sweep();
 }
@@ -135,29 +44,85 @@ SensorSweep VelodyneSensor::empty_sweep() const {
   return sweep;
 }
 
-// Returns the rotation from the first block of the newest packet to the first block of `packet`. Whole
-// revolutions are included; their number is the one that fits the time of `packet` best.
-double VelodyneSensor::rotation_since_last(const Payload& packet) const {
-  const double expected = speed_ * static_cast<double>(packet.time_ns - last_time_ns_);
-  return expected + azimuth_difference(azimuth_ + expected, azimuth_of(packet, 0));
+// Returns the time between the captures of the newest packet and of this one, nanoseconds.
+double VelodyneSensor::since_last(const Payload& packet) const {
+  return static_cast<double>(packet.time_ns - last_time_ns_);
 }
 
-bool VelodyneSensor::expects(const Payload& packet) const {
-  const auto passed = static_cast<double>(packet.time_ns - last_time_ns_);
-  if (!started_ || std::abs(passed) > kMaxPause) return true;
-  return std::abs(rotation_since_last(packet) - speed_ * passed) <= kMaxPredictionError;
+// Returns the time between the first firings of the newest packet and of this one by the sensor's clock, in
+// nanoseconds. Returns nullopt if the clock stands still, or if it is not that of the newest packet.
+std::optional<double> VelodyneSensor::clock_since_last(const Payload& packet) const {
+  constexpr double hour = 3.6e9;            // microseconds, after which the clock begins at 0
+  constexpr double max_difference = 0.2e9;  // nanoseconds
+  const std::uint32_t us = velodyne_clock(packet);
+  const double passed = 1000 * std::remainder(static_cast<double>(us) - last_us_, hour);
+  if (us == last_us_ || std::abs(passed - since_last(packet)) > max_difference) return std::nullopt;
+  return passed;
+}
+
+// Whole revolutions are included; their number is the one that fits the time of `packet` best.
+VelodyneSensor::Rotation VelodyneSensor::rotation_since_last(const Payload& packet,
+                                                             const VelodyneFirings& firings) const {
+  // The sensor's clock has the time of the first firing. The capture time is that of the last one.
+  const std::optional<double> clock = clock_since_last(packet);
+  const double last = azimuth_ + newest_total_, first = firings.azimuth[0];
+  const double expected = speed_ * clock.value_or(since_last(packet));
+  const double difference = clock ? azimuth_difference(azimuth_ + expected, first)
+                                  : azimuth_difference(last + expected, first + firings.total());
+  const double direction = firings.step < 0 ? -1 : 1, to_first = azimuth_difference(last, first);
+  const bool follows =
+      direction * to_first > 0 && std::abs(to_first) <= VelodyneFirings::max_step(firings.step);
+  // A program that plays a capture back may skip the time of a gap in the field of view.
+  if (follows && (firings.leaps != 0 || std::abs(difference) > kMaxDifference))
+    return {newest_total_ + to_first, std::min(std::abs(difference), kMaxDifference), true};
+  const double offset = clock ? 0 : newest_total_ - firings.total();
+  return {std::round(expected + difference) + offset, std::abs(difference), follows};
+}
+
+double VelodyneSensor::difference(const Payload& packet) const {
+  if (!started_ || std::abs(since_last(packet)) > kMaxPause) return kMaxDifference;
+  return rotation_since_last(packet, VelodyneFirings(packet)).difference;
 }
 
 // Estimates the rotation speed. The first estimate is from the first packet alone and assumes the model's
-// block_ns. Each later packet and its predecessor update the estimate with a smoothing factor of 1/8, so that
-// the jitter of a single packet has little effect.
-void VelodyneSensor::update_speed(const Payload& packet, double rotation) {
-  const std::size_t firings = kBlocks / step_of(packet) - 1;
-  if (speed_ == 0) speed_ = rotation_within(packet) / (static_cast<double>(firings) * model_->block_ns);
-  const auto passed = static_cast<double>(packet.time_ns - last_time_ns_);
-  if (!started_ || !(passed > 0.2e6 && passed < 5e6) || rotation * speed_ <= 0 || std::abs(rotation) > 3'000)
-    return;
-  speed_ += (rotation / passed - speed_) / 8;
+// block_ns. Packets that follow their predecessors closely replace it by the mean of their speeds, which has
+// a smoothing factor of 1/8, so that the jitter of a single packet has little effect.
+void VelodyneSensor::update_speed(const Payload& packet, const VelodyneFirings& firings, double rotation) {
+  if (speed_ == 0) speed_ = firings.step / model_->block_ns;
+  if (!started_) return;
+  const double passed = clock_since_last(packet).value_or(since_last(packet));
+  if (!(passed > 0.2e6 && passed < 5e6) || rotation * speed_ <= 0 || std::abs(rotation) > 3'000) return;
+  measured_speeds_ = std::min(measured_speeds_ + 1, 8U);
+  speed_ += (rotation / passed - speed_) / measured_speeds_;
+}
+
+// Returns the number of the revolution at an unwrapped azimuth.
+std::int64_t VelodyneSensor::revolution_at(double azimuth) const {
+  return static_cast<std::int64_t>(std::floor((azimuth - begin_azimuth_) / kRevolution));
+}
+
+// Notes that the azimuth leaps within a packet. Revolutions then begin in the gap.
+void VelodyneSensor::note_leap(double from, double to) {
+  if (std::abs(to - from) < kMinGap) return;
+  const bool was_known = std::exchange(has_gap_, true);
+  if (revolution_at(from) != revolution_at(to)) return;
+  // The first passage of the field of view may have been divided at azimuth 0.
+  if (!was_known && std::abs(from - first_azimuth_) < kRevolution) join_sweeps();
+  const double middle = (from + to) / 2;
+  begin_azimuth_ = middle - std::floor(middle / kRevolution) * kRevolution;
+  revolution_ = revolution_at(from);
+}
+
+// Joins the previous and the current sweep.
+void VelodyneSensor::join_sweeps() {
+  if (previous_.points.empty()) return;
+  const std::int64_t later = sweep_.points.empty() ? 0 : sweep_.stamp_ns - previous_.stamp_ns;
+  for (SensorPoint& point : sweep_.points) {
+    point.time_ns =
+        static_cast<std::uint32_t>(std::clamp(static_cast<double>(point.time_ns + later), 0.0, kMaxTime));
+    previous_.points.push_back(point);
+  }
+  sweep_ = std::exchange(previous_, empty_sweep());
 }
 
 void VelodyneSensor::begin_revolution(std::int64_t revolution, std::deque<SensorSweep>& whole) {
@@ -165,6 +130,12 @@ void VelodyneSensor::begin_revolution(std::int64_t revolution, std::deque<Sensor
   packets_in_revolution_ = 0;
   if (!previous_.points.empty()) whole.push_back(std::move(previous_));
   previous_ = std::exchange(sweep_, empty_sweep());
+}
+
+// Returns the sweep of a revolution: a new one, the current one or, for a late packet, the previous one.
+SensorSweep& VelodyneSensor::sweep_of(std::int64_t revolution, std::deque<SensorSweep>& whole) {
+  if (forward() * static_cast<double>(revolution - revolution_) > 0) begin_revolution(revolution, whole);
+  return revolution != revolution_ && !previous_.points.empty() ? previous_ : sweep_;
 }
 
 void VelodyneSensor::finish(std::deque<SensorSweep>& whole) {
@@ -176,63 +147,87 @@ void VelodyneSensor::finish(std::deque<SensorSweep>& whole) {
 }
 
 void VelodyneSensor::add(const Payload& packet, std::deque<SensorSweep>& whole) {
-  if (started_ && std::abs(static_cast<double>(packet.time_ns - last_time_ns_)) > kMaxPause) finish(whole);
-  const double rotation = started_ ? rotation_since_last(packet) : 0;
-  update_speed(packet, rotation);
-  const std::size_t step = step_of(packet);
-  const double forward = speed_ < 0 ? -1 : 1;
-  double azimuth = started_ ? azimuth_ + rotation : azimuth_of(packet, 0);
-  if (!started_) revolution_ = static_cast<std::int64_t>(std::floor(azimuth / kFullCircle));
-  if (!started_ || forward * rotation > 0) {
+  if (started_ && std::abs(since_last(packet)) > kMaxPause) finish(whole);
+  const VelodyneFirings firings(packet);
+  const auto [rotation, difference, follows] = started_ ? rotation_since_last(packet, firings) : Rotation();
+  update_speed(packet, firings, rotation);
+  const double azimuth = started_ ? azimuth_ + rotation : firings.azimuth[0];
+  if (!started_) {
+    revolution_ = revolution_at(azimuth);
+    first_azimuth_ = azimuth;
+  }
+  // Time in which the sensor turns by a hundredth of a degree of a gap.
+  const double gap_ns =
+      follows && firings.leaps != 0
+          ? std::max(since_last(packet) - static_cast<double>(firings.count) * model_->block_ns, 0.0) /
+                firings.leaps
+          : model_->block_ns / firings.step;
+  if (!started_ || forward() * rotation > 0) {
     azimuth_ = azimuth;
+    newest_total_ = firings.total();
     last_time_ns_ = packet.time_ns;
+    last_us_ = velodyne_clock(packet);
   }
   started_ = true;
-  // The second firing of a VLP-16's block is half way to the next block. The rotation per block is the
-  // rotation between the packet's first two blocks.
-  const double half = azimuth_difference(azimuth_of(packet, 0), azimuth_of(packet, step)) / 2;
-  for (std::size_t block = 0; block < kBlocks; block += step) {
-    if (block > 0) azimuth += azimuth_difference(azimuth_of(packet, block - step), azimuth_of(packet, block));
-    for (std::size_t laser = 0; laser < kVelodyneLasers; ++laser) {
-      const double at = laser >= model_->beams ? azimuth + half : azimuth;
-      auto revolution = static_cast<std::int64_t>(std::floor(at / kFullCircle));
-      if (at > azimuth && at == static_cast<double>(revolution) * kFullCircle) --revolution;
-      if (forward * static_cast<double>(revolution - revolution_) > 0) begin_revolution(revolution, whole);
-      const bool late = revolution != revolution_ && !previous_.points.empty();
-      SensorSweep& sweep = late ? previous_ : sweep_;
-      if (sweep.points.empty()) sweep.stamp_ns = packet.time_ns;
-      const std::size_t firing = block / step;
-      const double time = static_cast<double>(packet.time_ns - sweep.stamp_ns) +
-                          static_cast<double>(firing) * model_->block_ns +
-                          static_cast<double>(laser) * model_->laser_ns;
-      add_firing(packet, block, laser, at - std::floor(at / kFullCircle) * kFullCircle, time, sweep);
-    }
-  }
-  if (++packets_in_revolution_ < kLatePackets || previous_.points.empty()) return;
+  add_firings(packet, firings, azimuth, gap_ns, whole);
+  // The first sweep waits for a whole revolution, see note_leap().
+  const bool may_join = !has_gap_ && std::abs(azimuth_ - first_azimuth_) < kRevolution;
+  if (++packets_in_revolution_ < kLatePackets || may_join || previous_.points.empty()) return;
   whole.push_back(std::exchange(previous_, empty_sweep()));
 }
 
-void VelodyneSensor::add_firing(const Payload& packet, std::size_t block, std::size_t laser, double azimuth,
-                                double time, SensorSweep& sweep) const {
-  const std::byte* const one = return_of(packet, block, laser);
-  add_point(one, laser, azimuth, time, sweep);
-  if (step_of(packet) == 1) return;
-  const std::byte* const other = return_of(packet, block + 1, laser);
-  if (std::memcmp(one, other, 3) != 0) add_point(other, laser, azimuth, time, sweep);
+// Adds the firings of a packet whose first firing is at the unwrapped `azimuth`. `gap_ns` is the time for
+// each hundredth of a degree of a gap.
+void VelodyneSensor::add_firings(const Payload& packet, const VelodyneFirings& firings, double azimuth,
+                                 double gap_ns, std::deque<SensorSweep>& whole) {
+  double leaps = firings.leaps;  // those after the current firing
+  for (std::size_t i = 0; i < firings.count; ++i) {
+    const double at = azimuth + firings.rotation[i];
+    leaps -= firings.leap[i];
+    if (firings.leap[i] != 0) note_leap(azimuth + firings.rotation[i - 1], at);
+    // The capture time is that of the firings after all leaps.
+    const std::int64_t begin_ns = packet.time_ns - (leaps == 0 ? 0 : std::llround(leaps * gap_ns));
+    for (std::size_t laser = 0; laser < kVelodyneLasers; laser += model_->beams) {
+      const double turned = at + firings.advance[i] * laser_part_[laser];
+      std::int64_t revolution = revolution_at(turned);
+      // PCL's grabber does not begin a revolution with a VLP-16's second firing at exactly 0.
+      if (turned > at && turned - begin_azimuth_ == static_cast<double>(revolution) * kRevolution)
+        --revolution;
+      SensorSweep& sweep = sweep_of(revolution, whole);
+      if (sweep.points.empty()) sweep.stamp_ns = begin_ns;
+      const double time_ns =
+          static_cast<double>(begin_ns - sweep.stamp_ns) + static_cast<double>(i) * model_->block_ns;
+      add_lasers(packet, firings.blocks,
+                 {i * firings.blocks, time_ns, firings.azimuth[i], firings.advance[i]}, laser, sweep);
+    }
+  }
 }
 
-void VelodyneSensor::add_point(const std::byte* at, std::size_t laser, double hundredths, double time,
+// Adds the returns of all beams from a laser on.
+void VelodyneSensor::add_lasers(const Payload& packet, std::size_t blocks, const Firing& firing,
+                                std::size_t first_laser, SensorSweep& sweep) const {
+  for (std::size_t laser = first_laser; laser < first_laser + model_->beams; ++laser) {
+    const std::byte* const one = velodyne_return(packet, firing.block, laser);
+    add_point(one, laser, firing, sweep);
+    if (blocks == 1) continue;
+    const std::byte* const other = velodyne_return(packet, firing.block + 1, laser);
+    if (std::memcmp(one, other, 3) != 0) add_point(other, laser, firing, sweep);
+  }
+}
+
+void VelodyneSensor::add_point(const std::byte* at, std::size_t laser, const Firing& firing,
                                SensorSweep& sweep) const {
   const double distance = little_endian<std::uint16_t>(at) * model_->distance_unit;
   if (distance == 0) return;  // no return
-  const std::size_t beam = laser < model_->beams ? laser : laser - model_->beams;  // two firings in a block
-  const SineCosine& azimuth =
-      sine_cosine_table()[(static_cast<std::size_t>(hundredths) + azimuth_offset_[beam]) % kFullCircle];
+  const std::size_t beam = laser % model_->beams;
+  const SineCosine azimuth =
+      sine_cosine_of(firing.azimuth + firing.advance * laser_part_[laser] + azimuth_offset_[beam]);
   const double level = distance * cosine_[beam];
   sweep.points.push_back(
       {static_cast<float>(level * azimuth.sine), static_cast<float>(level * azimuth.cosine),
        static_cast<float>(distance * sine_[beam]), static_cast<float>(std::to_integer<int>(at[2])),
-       ring_[beam], static_cast<std::uint32_t>(std::clamp(time, 0.0, 4e9)), 0});
+       ring_[beam], static_cast<std::uint32_t>(std::clamp(firing.time_ns + laser_ns_[laser], 0.0, kMaxTime)),
+       0});
 }
 
 }  // namespace pcl_bv::detail

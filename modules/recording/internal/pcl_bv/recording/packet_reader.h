@@ -56,11 +56,11 @@ std::vector<std::string> sensors_in_capture(const std::filesystem::path& file);
 
 /// Reads the sweeps in a capture. The families of sensors are:
 /// - Velodyne (VLP-16, HDL-32E, VLP-32C). Ring 0 is the lowest beam. y is at azimuth 0, x at azimuth 90
-///   degrees. The intensity is 0 to 255. Azimuths are as in PCL's grabbers: all returns of a block have the
-///   block's azimuth, with two exceptions. For the second firing of a VLP-16's block, half the rotation per
-///   block is added. For each beam of a VLP-32C, the beam's azimuth offset is added. Two identical dual
-///   returns give one point. Sources: the sensors' manuals (63-9243, 63-9113, 63-9325).
-/// - Ouster (OS-0, OS-1, OS-2), with the sensor's metadata in a .json file next to the capture. Ring 0 is the
+///   degrees. The intensity is 0 to 255. Times and azimuths are those at which the laser fired; PCL's
+///   grabbers give all lasers of a firing the same azimuth. For each beam of a VLP-32C, the beam's azimuth
+///   offset is added. Two identical dual returns give one point. Sources: the sensors' manuals (63-9243,
+///   63-9113, 63-9325).
+/// - Ouster (OS-0, OS-1, OS-2), with the sensor's metadata in .json files next to the capture. Ring 0 is the
 ///   highest beam. The intensity is the signal. A frame id is a sweep. Source:
 ///   the firmware user manual.
 /// - Hesai (PandarXT-32, PandarXT-16, PandarXT-32M2X, PandarQT, QT128C2X, Pandar128E3X, OT128, AT128,
@@ -72,7 +72,8 @@ std::vector<std::string> sensors_in_capture(const std::filesystem::path& file);
 ///   reflectivity, 0 to 255. The tag of each point is read. Source: the communication protocols of both
 ///   sensors.
 ///
-/// A sweep is one revolution if the sensor has revolutions. The first and the last sweep may be incomplete.
+/// A sweep is one revolution if the sensor has revolutions, or one passage of a Velodyne's limited field of
+/// view. The first and the last sweep may be incomplete.
 /// Late packets go to the revolution in which they were measured. Lost packets are tolerated.
 ///
 /// Each sensor has its own sweeps. The sweeps of all sensors come in the order in which they are completed.
