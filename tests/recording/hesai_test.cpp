@@ -224,5 +224,41 @@ TEST_F(Hesai, CutAnywhereIsReadUpToItsLastWholePacket) {
   }
 }
 
+// A sensor that sends only the firings from 10 to 110 degrees. Most packets with a gap have firings of both
+// sides.
+TEST_F(Hesai, FiringsBehindTheGapOfALimitedFieldOfViewBeginASweep) {
+  for (const int step : {18, -18}) {
+    MadeHesai s;
+    s.step = step;
+    MadeHesaiPacket made;
+    made.firings.assign(8, std::vector<std::array<MadeHesaiReturn, 2>>(32, {{{1'000, 7}, {1'000, 7}}}));
+    std::vector<std::string> packets;
+    std::vector<std::size_t> expected;
+    std::size_t block = 0;
+    unsigned last_passage = 99;
+    for (unsigned i = 0; i < 4 * 2'000; ++i) {
+      const unsigned turned = 18 * (i % 2'000), azimuth = step > 0 ? turned : (36'000 - turned) % 36'000;
+      if (azimuth < 1'000 || azimuth > 11'000) continue;
+      if (block == 0) {
+        made.microseconds = 50 * i;
+        packets.push_back(hesai_bytes(s, made));
+      }
+      packets.back().replace(12 + block * 130, 2, pcl_bv::bytes_of(azimuth, 2));
+      block = (block + 1) % 8;
+      if (std::exchange(last_passage, i / 2'000) != i / 2'000) expected.push_back(0);
+      expected.back() += 32;
+    }
+    if (block > 0) {
+      packets.pop_back();
+      expected.back() -= 32 * block;
+    }
+    std::vector<std::size_t> sizes;
+    for (const SensorSweep& sweep : sweeps_of(pcap(packets)))
+      sizes.push_back(sweep.points.size());
+    EXPECT_EQ(sizes, expected);
+    EXPECT_THAT(warnings_, testing::IsEmpty());
+  }
+}
+
 }  // namespace
 }  // namespace pcl_bv::detail

@@ -38,6 +38,14 @@ double rotation_between(double from, double to) {
   return std::remainder(to - from, static_cast<double>(kHesaiCircle));
 }
 
+// Returns the rotation between two firings of a packet in the direction of rotation, which is 1 or -1. With a
+// limited field of view, the azimuth leaps over the gap.
+double rotation_along(double from, double to, double direction) {
+  constexpr double jitter = 50;
+  const double difference = rotation_between(from, to);
+  return direction * difference < -jitter ? difference + direction * kHesaiCircle : difference;
+}
+
 // Returns the difference of two times of which only the position in their second is known.
 std::int64_t wrapped(std::int64_t nanoseconds) {
   const std::int64_t within = ((nanoseconds % kHesaiSecond) + kHesaiSecond) % kHesaiSecond;
@@ -82,7 +90,8 @@ double HesaiSensor::rotation_in(const Payload& packet, double first) const {
 double HesaiSensor::unwrapped_azimuth(const Payload& packet) {
   const HesaiModel& model = *geometry_->model;
   const double first = model.azimuth(packet, 0), within = rotation_in(packet, first);
-  if (within != 0) forward_ = within < 0 ? -1 : 1;
+  constexpr double max_step = 1'000;  // a larger one is a leap over the gap of a limited field of view
+  if (within != 0 && std::abs(within) < max_step) forward_ = within < 0 ? -1 : 1;
   if (!started_) return first;
   const double rpm = model.rpm(packet);
   const double per_ns =  // hundredths of a degree for each nanosecond
@@ -152,7 +161,7 @@ void HesaiSensor::add_firings(const Payload& packet, double azimuth, SweepQueue&
   const std::int64_t packet_ns = std::int64_t{1000} * microseconds(packet, model);
   std::int64_t firing = 0;
   for (std::size_t i = 0; i < model.blocks; i += step, ++firing) {
-    if (i > 0) azimuth += rotation_between(model.azimuth(packet, i - step), model.azimuth(packet, i));
+    if (i > 0) azimuth += rotation_along(model.azimuth(packet, i - step), model.azimuth(packet, i), forward_);
     Frame& frame = frame_of(geometry_->frame_at(azimuth), queue);
     const std::int64_t firing_ns = packet_ns + firing * model.firing_ns;
     const std::int64_t time_ns = time_in_sweep(firing_ns, packet.time_ns, frame);
