@@ -8,6 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "made_ouster.h"
 #include "pcl_bv/recording/packet_reader.h"
 #include "recording_files.h"
@@ -45,16 +47,90 @@ TEST_F(OusterMetadataFile, IsRequiredAndTheErrorSaysWhere) {
 }
 
 TEST_F(OusterMetadataFile, HasTheNameOfTheCaptureOrIsTheOnlyOneInItsFolder) {
+  MadeOuster unknown = sensor_;
+  unknown.serial = 0;
   put("other.json", "[1, 2]");
-  put("b.json", nested_metadata(sensor_));
+  put("b.json", nested_metadata(unknown));
   EXPECT_EQ(error_of(), "a sweep");
-  put("c.json", nested_metadata(sensor_));
+  unknown.altitudes[0] += 1;
+  put("c.json", nested_metadata(unknown));
+  EXPECT_THAT(error_of(), HasSubstr("b.json is of an unknown sensor with packets of 6400 bytes"));
   EXPECT_THAT(error_of(),
-              HasSubstr("b.json and c.json are metadata of Ouster sensors: name one of them a.json"));
+              HasSubstr(": put the metadata of the packets' sensor next to the capture, as a.json "
+                        "or a_0.json"));
   put("a.json", flat_metadata(sensor_));
   EXPECT_EQ(error_of(), "a sweep");
   put("a.json", "{\"beam_altitude_angles\": [");
   EXPECT_THAT(error_of(), HasSubstr("a.json is no usable metadata of an Ouster sensor: truncated JSON"));
+}
+
+// As Ouster's tools name them.
+TEST_F(OusterMetadataFile, MayHaveANumberAfterTheNameOfTheCapture) {
+  MadeOuster other = sensor_;
+  other.serial = 0;
+  put("b_0.json", nested_metadata(other));
+  put("c.json", nested_metadata(other));
+  put("ab_0.json", nested_metadata(other));
+  put("a_x.json", nested_metadata(other));
+  EXPECT_NE(error_of(), "a sweep");
+  put("a_0.json", nested_metadata(other));
+  EXPECT_EQ(error_of(), "a sweep");
+  other.altitudes[0] += 1;
+  put("a_1.json", nested_metadata(other));
+  EXPECT_THAT(error_of(),
+              HasSubstr("a_0.json and a_1.json are metadata of Ouster sensors: name one of them a.json"));
+  put("a_1.pcap", "a capture of its own");
+  EXPECT_EQ(error_of(), "a sweep");
+  put("a.json", nested_metadata(other));
+  EXPECT_EQ(error_of(), "a sweep");
+}
+
+TEST_F(OusterMetadataFile, WithTheSerialNumberOfThePacketsIsUsed) {
+  MadeOuster other = sensor_;
+  for (const std::string name : {"a_0.json", "b_0.json", "c.json"}) {
+    ++other.serial;
+    put(name, nested_metadata(other));
+  }
+  EXPECT_THAT(error_of(), HasSubstr("a_0.json is of sensor 122201000999 with packets of 6400 bytes"));
+  put("d_0.json", nested_metadata(sensor_));
+  EXPECT_EQ(error_of(), "a sweep");
+  put("e_0.json", nested_metadata(sensor_));  // the same metadata again
+  EXPECT_EQ(error_of(), "a sweep");
+  other = sensor_;
+  other.altitudes[3] += 0.5;
+  put("f_0.json", nested_metadata(other));
+  EXPECT_THAT(error_of(), HasSubstr("d_0.json, e_0.json and f_0.json are metadata of Ouster sensors"));
+}
+
+TEST_F(OusterMetadataFile, OfEachSensorOfACaptureDecodesItsPackets) {
+  for (const bool legacy : {false, true}) {
+    MadeOuster one = made_ouster(legacy ? "LEGACY" : "RNG19_RFL8_SIG16_NIR16", 16), two = one;
+    two.serial += 1;
+    for (double& altitude : two.altitudes)
+      altitude = -altitude;
+    std::vector<std::string> payloads;
+    for (const MadeOuster* const sensor : {&one, &two})
+      for (const std::string& packet : packets_of_frame(*sensor, 1, random_columns(*sensor, 1'000'000, 3)))
+        payloads.push_back(packet);
+    std::string file = pcap(payloads);
+    const std::size_t record = (file.size() - 24) / payloads.size(), port_at = 16 + 14 + 20 + 2;
+    for (std::size_t i = 0; legacy && i < payloads.size(); ++i)
+      file.replace(24 + i * record + port_at, 2,
+                   pcl_bv::bytes_of(i < payloads.size() / 2 ? 7502 : 7503, 2, true));
+    put("x.y_0.pcap", file);
+    std::string metadata = nested_metadata(two);
+    put("x.y_0_0.json", nested_metadata(one));
+    put("x.y_0_1.json", metadata.replace(metadata.find("7502"), 4, "7503"));
+    PacketReader reader(at("x.y_0.pcap"));
+    std::vector<SensorSweep> sweeps;
+    for (SensorSweep sweep; reader.next(sweep);)
+      sweeps.push_back(sweep);
+    ASSERT_EQ(sweeps.size(), 2U);
+    ASSERT_EQ(sweeps[0].points.size(), sweeps[1].points.size());
+    EXPECT_EQ(sweeps[0].sensor + sweeps[1].sensor, 1U);
+    const double up = sweeps[0].points[0].z - 0.03618, down = sweeps[1].points[0].z - 0.03618;
+    EXPECT_NEAR(up, -down, 1e-3 * std::abs(up));
+  }
 }
 
 TEST_F(OusterMetadataFile, OfOtherPacketsIsNamed) {

@@ -4,7 +4,9 @@
 // The family of Ouster sensors.
 
 #include <cstring>
+#include <map>
 
+#include "ouster_metadata_files.h"
 #include "ouster_sensor.h"
 #include "sensor_family.h"
 
@@ -42,69 +44,48 @@ bool is_like_ouster(const Payload& packet) {
   return false;
 }
 
-// Returns the serial number in a packet, or 0 if it has none.
-std::uint64_t serial_of(const Payload& packet, const OusterProfile& profile) {
-  std::uint64_t serial = 0;
-  if (!profile.is_legacy()) std::memcpy(&serial, packet.data + 7, 5);
-  return serial;
-}
-
 class OusterFamily final : public SensorFamily {
  public:
-  explicit OusterFamily(const std::filesystem::path& capture) : capture_(capture) {
-    std::error_code unknown;
-    if (std::filesystem::exists(own_ouster_metadata(capture), unknown)) metadata();
-  }
+  explicit OusterFamily(const std::filesystem::path& capture) : files_(capture) {}
 
+  // The other files of the folder are not read before the first packet that needs them.
   std::optional<std::size_t> model_of(const Payload& packet) const override {
-    if (!found_ && !is_like_ouster(packet)) return std::nullopt;
-    const FoundOusterMetadata& found = metadata();
-    if (!found.metadata || packet.size != found.metadata->packet_size()) return std::nullopt;
-    const std::uint64_t serial = serial_of(packet, *found.metadata->profile);
-    if (serial != 0 && found.metadata->serial != 0 && serial != found.metadata->serial) return std::nullopt;
-    return 0;
+    const std::optional<std::size_t> model = files_.find(packet);
+    if (model || files_.has_read_folder() || !is_like_ouster(packet)) return model;
+    files_.read_folder();
+    return files_.find(packet);
   }
 
-  std::string_view model_name(std::size_t) const override { return metadata().metadata->model; }
+  std::string_view model_name(std::size_t model) const override { return files_.metadata(model).model; }
 
-  std::unique_ptr<SweepAssembler> make_assembler(std::size_t) const override {
-    if (!geometry_) {
-      shared_ = std::make_shared<OusterMetadata>(*metadata().metadata);
-      geometry_ = std::make_shared<OusterGeometry>(*shared_);
+  std::unique_ptr<SweepAssembler> make_assembler(std::size_t model) const override {
+    Sensor& sensor = sensors_[model];
+    if (!sensor.geometry) {
+      sensor.metadata = std::make_shared<OusterMetadata>(files_.metadata(model));
+      sensor.geometry = std::make_shared<OusterGeometry>(*sensor.metadata);
     }
-    return std::make_unique<OusterSensor>(shared_, geometry_);
+    return std::make_unique<OusterSensor>(sensor.metadata, sensor.geometry);
   }
 
   std::string undecodable(const Payload& packet) const override {
     if (!is_like_ouster(packet)) return {};
-    const auto& known = metadata().metadata;
-    std::string what = "an Ouster packet of " + std::to_string(packet.size) + " bytes";
-    if (known && packet.size == known->packet_size())
-      what += " of sensor " + std::to_string(serial_of(packet, *known->profile));
-    return what;
+    requirement_ = files_.missing_for(packet);
+    const std::uint64_t serial = files_.serial_of(packet);
+    return "an Ouster packet of " + std::to_string(packet.size) + " bytes" +
+           (serial == 0 ? "" : " of sensor " + std::to_string(serial));
   }
 
-  std::string requirement() const override {
-    const FoundOusterMetadata& found = metadata();
-    if (!found.metadata) return found.reason;
-    const OusterMetadata& known = *found.metadata;
-    return found.file + " is of sensor " + std::to_string(known.serial) + " with packets of " +
-           std::to_string(known.packet_size()) + " bytes (" + std::string(known.profile->name) + ", " +
-           std::to_string(known.beams) + " beams)";
-  }
+  std::string requirement() const override { return requirement_; }
 
  private:
-  // Metadata without the capture's name are not searched before the first packet that needs them, because the
-  // folder of a capture may have many .json files.
-  const FoundOusterMetadata& metadata() const {
-    if (!found_) found_ = find_ouster_metadata(capture_);
-    return *found_;
-  }
+  struct Sensor {
+    std::shared_ptr<const OusterMetadata> metadata{};
+    std::shared_ptr<const OusterGeometry> geometry{};
+  };
 
-  std::filesystem::path capture_;
-  mutable std::optional<FoundOusterMetadata> found_;
-  mutable std::shared_ptr<const OusterMetadata> shared_;
-  mutable std::shared_ptr<const OusterGeometry> geometry_;
+  mutable OusterMetadataFiles files_;
+  mutable std::map<std::size_t, Sensor> sensors_;
+  mutable std::string requirement_;  // of the last packet that could not be decoded
 };
 
 }  // namespace

@@ -14,8 +14,6 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr std::size_t kMaxOusterBytes = std::size_t{1} << 20;  // real metadata has about 10 kB
-constexpr std::size_t kMaxOusterFiles = 64;  // .json files in the folder of a capture that are parsed
 constexpr std::size_t kMaxBeams = 256, kMaxColumnsPerPacket = 64, kMaxColumnsPerFrame = 8192;
 constexpr std::size_t kMaxUdpPayload = 65'507;
 constexpr double kMaxMillimetres = 1e5;
@@ -141,28 +139,10 @@ void read_beams(const UntrustedJson& json, OusterMetadata& made) {
   std::copy(transform.begin(), transform.end(), made.lidar_to_sensor.begin());
 }
 
-// Returns the .json files in a folder, sorted, at most kMaxOusterFiles.
-std::vector<std::filesystem::path> json_files_in(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  std::error_code error;
-  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    std::error_code unknown;
-    if (it->path().extension() == ".json" && it->is_regular_file(unknown) && files.size() < kMaxOusterFiles)
-      files.push_back(it->path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-FoundOusterMetadata read_ouster_metadata(const std::filesystem::path& file) {
-  FoundOusterMetadata found;
-  found.file = printable(file.filename().string());
-  try {
-    found.metadata = parse_ouster_metadata(read_untrusted_text(file, kMaxOusterBytes));
-  } catch (const IoError& error) {
-    found.reason = found.file + " is no usable metadata of an Ouster sensor: " + error.what();
-  }
-  return found;
+// Returns a whole number that tells sensors apart, or 0 if there is none.
+std::uint64_t identifier_in(const UntrustedJson* value) {
+  const bool valid = value != nullptr && value->is_number_unsigned();
+  return valid ? value->get<std::uint64_t>() : 0;
 }
 
 }  // namespace
@@ -176,38 +156,11 @@ OusterMetadata parse_ouster_metadata(std::string_view json) {
   if (made.model.empty()) made.model = "Ouster";
   const std::string serial = text_in(find_value(parsed, {"sensor_info"}, "prod_sn"));
   std::from_chars(serial.data(), serial.data() + serial.size(), made.serial);  // stays 0 if not a number
+  made.init_id = identifier_in(find_value(parsed, {"sensor_info"}, "initialization_id"));
+  made.port = identifier_in(find_value(parsed, {"config_params"}, "udp_port_lidar"));
   read_format(parsed, made);
   read_beams(parsed, made);
   return made;
-}
-
-std::filesystem::path own_ouster_metadata(const std::filesystem::path& capture) {
-  std::filesystem::path own = capture;
-  return own.replace_extension(".json");
-}
-
-FoundOusterMetadata find_ouster_metadata(const std::filesystem::path& capture) {
-  const std::filesystem::path own = own_ouster_metadata(capture);
-  std::error_code unknown;
-  if (std::filesystem::exists(own, unknown)) return read_ouster_metadata(own);
-  const std::filesystem::path folder = capture.has_parent_path() ? capture.parent_path() : ".";
-  FoundOusterMetadata only;
-  for (const std::filesystem::path& file : json_files_in(folder)) {
-    FoundOusterMetadata found = read_ouster_metadata(file);
-    if (!found.metadata) continue;
-    if (only.metadata) {
-      only.metadata.reset();
-      only.reason = only.file + " and " + found.file + " are metadata of Ouster sensors: name one of them " +
-                    printable(own.filename().string());
-      return only;
-    }
-    only = std::move(found);
-  }
-  if (!only.metadata)
-    only.reason =
-        "the metadata of the Ouster sensor is missing: put its .json file next to the capture, as " +
-        printable(own.filename().string());
-  return only;
 }
 
 }  // namespace pcl_bv::detail

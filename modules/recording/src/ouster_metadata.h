@@ -6,8 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,8 +15,9 @@
 namespace pcl_bv::detail {
 
 struct OusterMetadata {
-  std::string model;         ///< Product line, such as "OS-1-64".
-  std::uint64_t serial = 0;  ///< Serial number; 0 if unknown.
+  std::string model;  ///< Product line, such as "OS-1-64".
+  /// Serial number, initialization id and destination port of the packets; 0 if unknown.
+  std::uint64_t serial = 0, init_id = 0, port = 0;
   const OusterProfile* profile = nullptr;
   std::size_t beams = 0, columns_per_packet = 0, columns_per_frame = 0;
   std::vector<double> altitudes, azimuths;  ///< Angles of each beam, degrees.
@@ -35,20 +34,5 @@ struct OusterMetadata {
 /// origin; both then are as in Ouster's SDK. Throws IoError for JSON that is not such metadata, for values
 /// out of range and for profiles that are not supported.
 OusterMetadata parse_ouster_metadata(std::string_view json);
-
-/// The metadata next to a capture, or the reason why there is none.
-struct FoundOusterMetadata {
-  std::optional<OusterMetadata> metadata{};
-  std::string file{};    ///< Name of the metadata's file.
-  std::string reason{};  ///< Tells the user what is needed.
-};
-
-/// Returns where the metadata of this capture should be: its name with the extension .json.
-std::filesystem::path own_ouster_metadata(const std::filesystem::path& capture);
-
-/// Finds the metadata of a capture. This is the file with the capture's name and the extension .json. Without
-/// such a file, it is the only .json file in the capture's folder that can be parsed as metadata. Never
-/// throws.
-FoundOusterMetadata find_ouster_metadata(const std::filesystem::path& capture);
 
 }  // namespace pcl_bv::detail
