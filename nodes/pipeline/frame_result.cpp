@@ -195,7 +195,7 @@ FrameReport report_without_clusters(const Frame& frame, const FrameResult& resul
   report.counts = result.counts;
   for (const SensorPart& sensor : frame.sensors)
     report.sensors.push_back({sensor.name, sensor.count, sensor.stamp_ns});
-  if (result.deskew.moved())
+  if (result.deskew.moved() && result.deskew.times.unit != nullptr)
     report.deskew = result.deskew.outcome == DeskewOutcome::by_poses ? "poses" : "tracks";
   const StageTimes& ms = result.ms;
   report.ms = {{"decode", ms.decode}, {"filter", ms.filter}, {"ground", ms.ground}, {"cluster", ms.cluster},

@@ -9,9 +9,11 @@
 
 #include "ground.h"
 #include "pcl_bv/io/number_text.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/segmentation/ground.h"
 #include "pcl_bv/segmentation/up.h"
 #include "pipeline/config/settings.h"
+#include "pipeline/deskew/point_times.h"
 
 namespace pcl_bv {
 using namespace detail;
@@ -121,8 +123,31 @@ std::string track_times(const Found& f) {
   return ((f.result.track_time == times) || ...) ? track_warning(f.result) : std::string();
 }
 
+// Returns whether the sensor of a rig has returns, but no times of a sweep.
+bool lacks_times(const Frame& frame, const SensorPart& part) {
+  if (frame.seconds == nullptr || have_sweep(frame.seconds + part.first, part.count)) return false;
+  for (std::size_t i = part.first; i < part.first + part.count; ++i)
+    if (has_return(load_point(frame.points, i))) return true;
+  return false;
+}
+
 std::string points_not_moved(const Found& f) {
-  return deskew_warning(f.result);
+  const std::vector<SensorPart>& sensors = f.frame.sensors;
+  if (sensors.empty() || f.config().deskew != Deskew::on || f.result.deskew.outcome == DeskewOutcome::off)
+    return deskew_warning(f.result);
+  constexpr std::size_t max_names = 5;
+  std::string names;
+  std::size_t count = 0;
+  for (const SensorPart& part : sensors) {
+    if (!lacks_times(f.frame, part)) continue;
+    if (++count <= max_names) names += (names.empty() ? "" : ", ") + part.name;
+  }
+  if (count > max_names) names += " and " + std::to_string(count - max_names) + " others";
+  if (count > 0)
+    return printable(names) +
+           ": points cannot be moved to the stamp: they have no times, or times that are not those of a "
+           "sweep";
+  return f.result.deskew.outcome == DeskewOutcome::no_times ? "" : deskew_warning(f.result);
 }
 
 constexpr std::string (*kKinds[])(const Found&) = {no_ground,

@@ -489,6 +489,88 @@ TEST(Rig, WarnsOnceOfTimesOfPointsThatAreUnusual) {
               ElementsAre(HasSubstr("/front: the times of the points differ from the stamp by 3.0")));
 }
 
+// The robot drives by 1 m in each frame. The times of each sensor's points, in nanoseconds, are a constant
+// plus multiples of a step.
+struct RigTimes {
+  bool known = false;
+  std::uint32_t constant = 0, step = 0;
+};
+struct DeskewedRig {
+  FrameResult result;
+  std::string reported;
+  std::vector<std::string> warnings;
+};
+
+DeskewedRig deskewed_rig(RigTimes front_times, RigTimes rear_times, std::int64_t rear_delay, Deskew deskew) {
+  std::vector<Step> front, rear;
+  for (int i = 0; i < 3; ++i) {
+    for (const bool is_front : {true, false}) {
+      const RigTimes& times = is_front ? front_times : rear_times;
+      Cloud cloud{100 * i + (is_front ? 0 : rear_delay), {}};
+      for (std::uint32_t k = 0; k < 100; ++k) {
+        cloud.xyz.insert(cloud.xyz.end(), {5, 0.1F * static_cast<float>(k), 2});
+        if (times.known) cloud.times_ns.push_back(times.constant + times.step * k);
+      }
+      (is_front ? front : rear).emplace_back(cloud);
+    }
+  }
+  RigInputs inputs = two_sensors(front, rear);
+  for (int i = -1; i < 5; ++i)
+    inputs.transforms.add("odom", "base", 100 * i * kMs, pose_of_angles({1.0 * i, 0, 0}, {0, 0, 0}));
+  RigConfig config = rig();
+  config.fixed_frame = "odom";
+  ReplayOptions options;
+  options.point_times = true;
+  RigSource source(std::move(inputs), config, options);
+  PipelineConfig settings;
+  settings.ground.method = GroundMethod::none;
+  settings.volumes = {"aabb"};
+  settings.deskew = deskew;
+  FramePipeline pipeline(settings);
+  FrameWarnings warnings;
+  DeskewedRig made;
+  Frame frame;
+  while (source.next(frame, 0ms) == Next::frame) {
+    pipeline.process(frame, made.result);
+    made.reported = report_of(frame, made.result).deskew;
+    for (std::string& line : warnings.take(frame, made.result))
+      made.warnings.push_back(std::move(line));
+    for (std::string& line : source.take_warnings())
+      made.warnings.push_back(std::move(line));
+  }
+  return made;
+}
+
+TEST(Rig, NamesEachSensorWhosePointsHaveNoTimesOfASweep) {
+  const std::string reason =
+      ": points cannot be moved to the stamp: they have no times, or times that are not those of a sweep";
+  const RigTimes none{}, zero{true, 0, 0}, constant{true, 50'000'000, 0}, short_sweep{true, 0, 10},
+      sweep{true, 0, 1'000'000};
+  for (const RigTimes& unusable : {none, zero, constant, short_sweep}) {
+    SCOPED_TRACE(testing::Message() << unusable.known << unusable.constant << unusable.step);
+    const DeskewedRig both = deskewed_rig(unusable, unusable, 0, Deskew::on);
+    EXPECT_THAT(both.warnings, ElementsAre("/front, /rear" + reason));
+    EXPECT_EQ(both.result.deskew.outcome, DeskewOutcome::no_times);
+    EXPECT_EQ(both.reported, "");
+    // The clouds are moved as a whole.
+    const DeskewedRig apart = deskewed_rig(unusable, unusable, 20, Deskew::on);
+    EXPECT_THAT(apart.warnings, ElementsAre("/front, /rear" + reason));
+    ASSERT_TRUE(apart.result.deskew.moved());
+    EXPECT_EQ(apart.result.deskew.times.unit, nullptr);
+    EXPECT_EQ(apart.reported, "");
+    EXPECT_NEAR(load_point(apart.result.deskew.points, 100).x, -2 - 5 + 0.2, 1e-5);
+    const DeskewedRig one = deskewed_rig(sweep, unusable, 20, Deskew::on);
+    EXPECT_THAT(one.warnings, ElementsAre("/rear" + reason));
+    EXPECT_EQ(one.reported, "poses");
+    const DeskewedRig quiet = deskewed_rig(unusable, unusable, 20, Deskew::automatic);
+    EXPECT_THAT(quiet.warnings, testing::IsEmpty());
+    EXPECT_EQ(quiet.reported, "");
+  }
+  const DeskewedRig known = deskewed_rig(sweep, sweep, 20, Deskew::on);
+  EXPECT_THAT(known.warnings, testing::IsEmpty());
+  EXPECT_EQ(known.reported, "poses");
+}
+
 TEST(Rig, HasThePoseOfTheRobotInTheFixedFrame) {
   RigInputs inputs = two_sensors({Cloud{0}, Cloud{100}}, {Cloud{0}, Cloud{100}});
   inputs.transforms.add("odom", "base", 0, pose_of_angles({7, 0, 0}, {0, 0, 0}));

@@ -33,6 +33,14 @@ double max_rotation_angle(const SensorMotion& motion, const DeskewTimes& times) 
   return norm(motion.angular_velocity) * std::max(std::abs(times.first), std::abs(times.last));
 }
 
+// Returns whether a point of Frame::seconds was measured at another time than another point of its sensor.
+bool has_sweep(const Frame& frame) {
+  if (frame.sensors.empty()) return have_sweep(frame.seconds, frame.points.count);
+  return std::any_of(frame.sensors.begin(), frame.sensors.end(), [&](const SensorPart& part) {
+    return have_sweep(frame.seconds + part.first, part.count);
+  });
+}
+
 }  // namespace
 
 std::optional<SensorMotion> Deskewer::motion_of(const Frame& frame) const {
@@ -54,7 +62,7 @@ const float* Deskewer::read_times(const Frame& frame, UsableIsa isa, DeskewTimes
     times = point_times_.read(isa, *frame.times, frame.points, frame.header.stamp_ns, seconds_.data());
     return seconds_.data();
   }
-  times.unit = &kSeconds;
+  if (has_sweep(frame)) times.unit = &kSeconds;
   const TimeLimits limits = find_time_limits(isa, frame.seconds, frame.points.count);
   times.first = limits.first;
   times.last = limits.last;
@@ -74,9 +82,12 @@ void Deskewer::apply(const Frame& frame, const Execution& execution, DeskewResul
     return;
   }
   const float* const seconds = read_times(frame, execution.isa, result.times);
-  if (result.times.problem != DeskewTimes::Problem::none) {
+  const DeskewTimes& times = result.times;
+  if (times.problem != DeskewTimes::Problem::none) {
     result.outcome = DeskewOutcome::bad_times;
-  } else if (!(max_rotation_angle(*motion, result.times) <= kMaxDeskewAngle)) {
+  } else if (times.unit == nullptr && times.first == 0 && times.last == 0) {
+    result.outcome = DeskewOutcome::no_times;
+  } else if (!(max_rotation_angle(*motion, times) <= kMaxDeskewAngle)) {
     result.outcome = DeskewOutcome::too_fast;
   } else {
     result.outcome = frame.pose ? DeskewOutcome::by_poses : DeskewOutcome::by_tracks;

@@ -147,6 +147,10 @@ DeskewTimes PointTimes::read(UsableIsa isa, const FieldView& field, const PointV
   return times;
 }
 
+bool have_sweep(const float* seconds, std::size_t count) {
+  return std::any_of(seconds, seconds + count, [&](float time) { return time != *seconds; });
+}
+
 std::string times_warning(const DeskewTimes& times) {
   std::string text;
   if (times.origin == DeskewTimes::Origin::first_point)

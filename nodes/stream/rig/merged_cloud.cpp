@@ -75,12 +75,6 @@ std::optional<Eigen::Vector3d> mean_position(const std::vector<SensorPart>& part
   return count > 0 ? stored_sensor_position(sum / count) : std::nullopt;
 }
 
-bool has_any_return(const PointView& points) {
-  for (std::size_t i = 0; i < points.count; ++i)
-    if (has_return(load_point(points, i))) return true;
-  return false;
-}
-
 }  // namespace
 
 // New memory costs a page fault for each 4096 bytes, which takes longer than the transform.
@@ -102,13 +96,9 @@ std::shared_ptr<CloudMerger::Memory> CloudMerger::take_memory() {
           }};
 }
 
-// Warns once for each sensor.
+// Warns once for each sensor. FrameWarnings names the sensors whose times cannot be used.
 void CloudMerger::warn_of_times(const MountedCloud& cloud, const DeskewTimes& times) {
-  std::string warning = times_warning(times);
-  if (times.problem == DeskewTimes::Problem::no_sweep)
-    warning = "the times of its points are not those of a sweep; they are ignored";
-  if (times.problem == DeskewTimes::Problem::no_time && has_any_return(cloud.frame->points))
-    warning = "no point has a time";
+  const std::string warning = times_warning(times);
   if (warning.empty() || !warned_.insert(cloud.name).second) return;
   warnings_.push_back(message_line(cloud.name + ": " + warning));
 }

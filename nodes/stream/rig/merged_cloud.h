@@ -36,9 +36,8 @@ class CloudMerger {
   /// are set if all clouds have them. `merged.header.stamp_ns` must be set. O(points).
   void merge(const std::vector<MountedCloud>& clouds, Frame& merged);
 
-  /// Returns the warnings since the last call, one line each. There is one for each sensor
-  /// whose times of points are unusual (times_warning()) or cannot be read; without times, points get the
-  /// stamp of their cloud.
+  /// Returns the warnings since the last call, one line each. There is one for each sensor whose times of
+  /// points are unusual (times_warning()). Without usable times, points get the stamp of their cloud.
   std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
 
  private:

@@ -89,6 +89,8 @@ struct DeskewTimes {
   };
   Problem problem = Problem::none;
   Origin origin = Origin::stamp;
+  /// Null if no point has a time within its sweep: the clouds of a rig's sensors without times are moved as a
+  /// whole to the frame's stamp.
   const TimeUnit* unit = nullptr;
   double first = 0, last = 0;   ///< Smallest and largest time, seconds after the stamp.
   double clock_difference = 0;  ///< Times minus stamp, seconds, if `origin` is first_point.
@@ -98,7 +100,7 @@ struct DeskewTimes {
 /// Result of deskewing (PipelineConfig::deskew).
 enum class DeskewOutcome : std::uint8_t {
   off,        ///< Not requested, or ground removal and clustering are both off.
-  no_times,   ///< Frame::times is not set, or Frame::points has an index list.
+  no_times,   ///< Frame::times is not set, Frame::seconds are all 0, or Frame::points has an index list.
   bad_times,  ///< See DeskewTimes::problem.
   no_motion,  ///< The motion of the sensor is unknown, or faster than 100 m/s.
   too_fast,   ///< The sensor turned by more than half a radian within the sweep.
@@ -244,7 +246,8 @@ detail::Picture picture_of(const Frame& frame, const FrameResult& result,
 /// - many points far away;
 /// - a sensor height that fits no plane;
 /// - stamps of tracked frames that do not advance, go back, or advance by more than one second;
-/// - points that could not be moved to the stamp (deskew_warning()).
+/// - points that could not be moved to the stamp (deskew_warning()). The warning names the sensors of a rig
+///   whose points have no times of a sweep.
 class FrameWarnings {
  public:
   /// The warnings name settings by `name`.
