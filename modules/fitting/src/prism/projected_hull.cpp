@@ -64,8 +64,8 @@ GroundProjection::GroundProjection(const Ground& ground, const Supports& support
     if (coordinate_axis(axis)) continue;
     double terms = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double farthest = std::max(std::abs(supports.along[k].low), std::abs(supports.along[k].high));
-      terms += std::abs(axis[static_cast<int>(k)]) * farthest;
+      const double largest = std::max(std::abs(supports.along[k].low), std::abs(supports.along[k].high));
+      terms += std::abs(axis[static_cast<int>(k)]) * largest;
     }
     error_bound_ = std::max(error_bound_, 0x1p-51 * terms + kSmallestNormal);
   }
