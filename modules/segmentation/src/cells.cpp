@@ -103,7 +103,7 @@ std::int64_t cell_number(double coordinate, double inverse_side) {
     first = std::bit_cast<double>(bits(first) - 1);
   const std::int64_t magnitude =
       static_cast<std::int64_t>(far_cells) + bits(std::abs(coordinate)) - bits(first);
-  return cells < 0 ? -magnitude : magnitude;
+  return cells < 0 ? -magnitude - 1 : magnitude;  // floor() of a negative number may be -far_cells
 }
 
 void CellGrid::add_axis(std::size_t axis, std::int64_t low, std::int64_t high) {

@@ -84,7 +84,7 @@ template <typename T, typename Key>
 std::uint32_t find_components(const std::vector<Point<T>>& points, PointScratch<T>& scratch,
                               const CellGrid& grid, T r2, std::size_t min_points,
                               const ParallelPolicy& policy, BlockKeys<Key>& keys, UnionFind& sets) {
-  const bool solid = r2 != not_solid_r2;
+  const bool solid = r2 > 0 && r2 != not_solid_r2;  // without a tolerance not even duplicates are linked
   scratch.cells.by_point = !solid || min_points > 1;
   make_cells(points, grid, policy, scratch.cells, keys);
   if (keys.keys.size() >= free_memory_from_blocks) keys.release_memory();
