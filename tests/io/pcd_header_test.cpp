@@ -197,7 +197,7 @@ TEST_F(PcdHeader, WithAnImpossibleCountIsRefused) {
 }
 
 TEST_F(PcdHeader, LeavesOutAFieldOfNoElements) {
-  const auto with_padding = [&](const char* data) {
+  const auto with_padding = [&](const char* data) -> PcdHeader& {
     return set("FIELDS", "FIELDS x y z _ intensity _")
         .set("SIZE", "SIZE 4 4 4 1 4 1")
         .set("TYPE", "TYPE F F F U F U")

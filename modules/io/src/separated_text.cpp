@@ -42,22 +42,22 @@ std::size_t end_of_value(std::string_view line, std::size_t at, char separator) 
   return std::min(line.find(separator, at), line.size());
 }
 
-bool has_value(std::string_view line, char separator) {
-  return !std::all_of(line.begin(), line.end(), [&](char c) { return is_blank(c) || c == separator; });
+// Returns the end of the last value that is not empty, or 0.
+std::size_t end_of_values(std::string_view line, char separator) {
+  std::size_t end = line.size();
+  while (end > 0 && (is_blank(line[end - 1]) || line[end - 1] == separator))
+    --end;
+  return end;
 }
 
 char* write_line(std::string_view line, char separator, std::size_t columns, char* to) {
+  const std::size_t last = end_of_values(line, separator);
   std::size_t number = 0;
-  for (std::size_t at = 0; at <= line.size(); ++number) {
+  for (std::size_t at = 0; at < last || (number < columns && at <= line.size()); ++number) {
     const std::size_t end = end_of_value(line, at, separator);
     const std::string_view value = trimmed(line.substr(at, end - at));
-    const bool behind_last_separator = at == line.size() && number > 0;
-    if (!value.empty()) {
-      to = std::transform(value.begin(), value.end(), to,
-                          [](char c) { return is_blank(c) ? kInnerBlank : c; });
-    } else if (!behind_last_separator || number < columns) {
-      *to++ = kInnerBlank;
-    }
+    to = std::transform(value.begin(), value.end(), to, [](char c) { return is_blank(c) ? kInnerBlank : c; });
+    if (value.empty()) *to++ = kInnerBlank;
     *to++ = ' ';
     at = end + 1;
   }
@@ -76,15 +76,21 @@ char separator_of(std::string_view line) {
   return ' ';
 }
 
-Words split_columns(std::string_view line, char separator) {
+Words split_all_columns(std::string_view line, char separator) {
   if (separator == ' ') return split(trimmed(line));
   Words words;
-  for (std::size_t at = 0; at < line.size();) {
+  for (std::size_t at = 0; at <= line.size();) {
     const std::size_t end = end_of_value(line, at, separator);
     words.push_back(trimmed(line.substr(at, end - at)));
     at = end + 1;
   }
-  if (!words.empty() && words.back().empty()) words.pop_back();
+  return words;
+}
+
+Words split_columns(std::string_view line, char separator) {
+  Words words = split_all_columns(line, separator);
+  while (!words.empty() && words.back().empty())
+    words.pop_back();
   return words;
 }
 
@@ -109,8 +115,8 @@ bool has_plain_values(std::string_view text, char separator) {
 char* separate_by_blanks(std::string_view text, char separator, std::size_t columns, char* to) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
-    const std::string_view line = text.substr(at, end - at);
-    if (has_value(line, separator)) to = write_line(line, separator, columns, to);
+    const std::string_view line = without_blanks_around(text.substr(at, end - at));
+    if (end_of_values(line, separator) > 0) to = write_line(line, separator, columns, to);
     if (end < text.size()) *to++ = '\n';
     at = end + 1;
   }

@@ -18,8 +18,10 @@ std::string_view without_blanks_around(std::string_view text);
 /// Returns ';' or ',' if the line has this character, otherwise ' '.
 char separator_of(std::string_view line);
 
-/// Returns the values of a line, which are separated by `separator` or, if it is ' ', by any blanks. A
-/// separator at the end of the line adds no value.
+/// Returns the values of a line, which are separated by `separator` or, if it is ' ', by any blanks.
+Words split_all_columns(std::string_view line, char separator);
+
+/// Like split_all_columns(), but without empty values at the end of the line.
 Words split_columns(std::string_view line, char separator);
 
 /// Stands for a blank inside of a value in the text of separate_by_blanks(). Alone, it is an empty value.
@@ -30,8 +32,8 @@ inline constexpr char kInnerBlank = '\x1F';
 bool has_plain_values(std::string_view text, char separator);
 
 /// Writes whole lines to `to`, which has 2 * text.size() + 2 bytes, with blanks between their values. Lines
-/// without a value become empty. If a line ends with a separator, an empty value follows it only if the line
-/// has less than `columns` values. Returns the end of the written text.
+/// without a value become empty. Empty values at the end of a line are written only up to `columns` values.
+/// Returns the end of the written text.
 char* separate_by_blanks(std::string_view text, char separator, std::size_t columns, char* to);
 
 }  // namespace pcl_bv::detail

@@ -113,8 +113,9 @@ bool is_count(std::string_view line) {
 void set_first_row(std::string_view line, char separator, std::size_t expected_columns, TextStart& start) {
   start.separator = separator;
   start.columns = split_columns(line, separator).size();
-  const bool last_is_empty = separator != ' ' && line.back() == separator;
-  if (last_is_empty && start.columns + 1 == expected_columns) ++start.columns;
+  // Empty values at the end count if the columns have names.
+  if (start.columns < expected_columns && expected_columns <= split_all_columns(line, separator).size())
+    start.columns = expected_columns;
 }
 
 // Returns nothing if the numbers begin behind the text. `names` are those of --columns, if given.
