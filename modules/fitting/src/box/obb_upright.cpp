@@ -30,7 +30,7 @@ constexpr std::size_t kCoarseSteps = 20;  // steps of 3 to 6 degrees
 constexpr std::size_t kCoarsePoints = 512;
 constexpr std::size_t kFinePoints = 4096;
 constexpr int kStarts = 3;
-constexpr int kHalvings = 5;  // The last steps are of 0.1 to 0.2 degrees.
+constexpr int kHalvings = 4;  // The last steps are of 0.2 to 0.4 degrees.
 constexpr int kFits = 3;
 constexpr double kEnough = 0.95;  // the part of the closeness that a fit of the sides must retain
 
