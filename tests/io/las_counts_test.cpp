@@ -132,7 +132,9 @@ std::string geo_keys(std::uint16_t key, std::uint16_t value) {
 }
 
 TEST_F(LasCounts, UnitsOtherThanMetresHaveAWarning) {
-  const std::string feet = "the coordinate system has feet: coordinates and distances are in its units",
+  const std::string feet =
+                        "coordinates are in feet (the coordinate system of the file): distances and "
+                        "tolerances are feet, too",
                     degrees =
                         "x and y are longitude and latitude: all distances in their plane are in degrees",
                     projected = R"(PROJCS["a",GEOGCS["b",UNIT["degree",0.0174]],UNIT["metre",1]])";

@@ -189,12 +189,26 @@ TEST_F(TilesetContents, OfTilesetsWithKeysThatMoveThemAreRefused) {
   EXPECT_THAT(refusal(R"("extensionsRequired":["VENDOR_moves"])"), HasSubstr("VENDOR_moves"));
   EXPECT_EQ(refusal(R"("extensionsRequired":["3DTILES_content_gltf"])"), "none");
   EXPECT_THAT(refusal(R"("extensions":{"3DTILES_ellipsoid":{}})"), HasSubstr("ellipsoid"));
-  EXPECT_THAT(refusal(R"("schema":{"classes":{"t":{"properties":{"b":{"semantic":"TILE_BOUNDING_BOX"}}}}})"),
-              HasSubstr("TILE_BOUNDING_"));
   write_text(file("bad"), triangle("", "", R"(,"animations":[{}])"));
   EXPECT_THAT(update(leaf("bad")).problems, ElementsAre(HasSubstr("animations")));
   write_text(file("bad"), triangle(R"(,"weights":[1])"));
   EXPECT_THAT(update(leaf("bad")).problems, ElementsAre(HasSubstr("morph targets")));
+}
+
+TEST_F(TilesetContents, OfTilesWhoseMetadataMayReplaceVolumesKeepTheirs) {
+  write_text(file("a.pnts"), cloud(kPoints));
+  const auto problems = [&](const std::string& schema, const std::string& keys) {
+    write_text(file("tileset.json"), R"({"asset":{"version":"1.1"},)" + schema + R"(,"root":)" +
+                                         tile(R"("content":{"uri":"a.pnts"})" + keys) + "}");
+    return update_tileset(file("tileset.json"), {find_method("aabb")}, {}).problems;
+  };
+  const std::string metadata = R"(,"metadata":{"class":"t"})",
+                    box =
+                        R"("schema":{"classes":{"t":{"properties":{"b":{"semantic":"TILE_BOUNDING_BOX"}}}}})";
+  EXPECT_THAT(problems(box, metadata), ElementsAre(HasSubstr("metadata")));
+  EXPECT_THAT(problems(R"("schemaUri":"s.json")", metadata), ElementsAre(HasSubstr("metadata")));
+  EXPECT_THAT(problems(box, ""), IsEmpty());
+  EXPECT_THAT(problems(R"("schema":{"classes":{"t":{}}})", metadata), IsEmpty());
 }
 
 TEST_F(TilesetContents, MayHaveEscapesInTheirKeys) {

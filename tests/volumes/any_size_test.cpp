@@ -63,7 +63,7 @@ TEST(AnySize, VolumesAreTheProductsOfSidesThoughTwoOfThemUnderflowOrOverflow) {
 }
 
 TEST(AnySize, DistancesFromPolytopesScaleWithThem) {
-  const Hull cube = testing::cube();
+  const Hull cube = testing::cube(Vector3d::Zero(), 1);
   for (const double unit : {0x1p-1000, 0x1p-700, 1.0, 0x1p300}) {
     for (const Vector3d& p : {Vector3d(0.5, 0.25, 3), Vector3d(-2, 0.5, 0.5), Vector3d(3, 4, 0.5)}) {
       SCOPED_TRACE(unit);

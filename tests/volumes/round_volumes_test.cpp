@@ -125,7 +125,6 @@ TEST_P(RoundVolumesAtScales, InfiniteFloatCylindersHoldTheAxis) {
 
 TEST_P(RoundVolumesAtScales, AreEnteredAtZeroByRaysFromPointsThatTheyContain) {
   Random random(5);
-  const double infinity = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 20; ++i) {
     for (const AnyVolume& volume : volumes(random, GetParam())) {
       for (int k = 0; k < 20; ++k) {
@@ -133,7 +132,7 @@ TEST_P(RoundVolumesAtScales, AreEnteredAtZeroByRaysFromPointsThatTheyContain) {
         const Vector3d outward = random.vector(1);
         Vector3d p = support(volume, outward);
         for (int axis = 0; axis < 3; ++axis) {
-          if (random.uniform(0, 1) < 0.5) p[axis] = std::nextafter(p[axis], outward[axis] * infinity);
+          if (random.uniform(0, 1) < 0.5) p[axis] = std::nextafter(p[axis], outward[axis] * std::numeric_limits<double>::infinity());
         }
         if (!contains(volume, p)) continue;
         for (const Vector3d& direction : {random.vector(1), outward}) {

@@ -108,7 +108,8 @@ double difference_in_columns(const std::vector<float>& values, std::size_t field
   return largest;
 }
 
-// What the values of a column can be. Coordinates of one axis are of the same kind in all points.
+// Kinds of values in a column, from general to special. Coordinates of one axis are of the same kind in all
+// points.
 enum class ColumnKind : std::uint8_t { any, small, whole };
 
 ColumnKind kind_of(const std::vector<float>& values) {
@@ -121,12 +122,20 @@ ColumnKind kind_of(const std::vector<float>& values) {
 // Returns whether `other` floats per point explain the distributions of the columns, and `fields` do not. If
 // `other` is a multiple of `fields`, the sweeps of some sensors have such a pattern: successive points come
 // from different beams. Then the floats at the positions of the next point's x, y and z must be of another
-// kind than coordinates: colours, normals, intensities, classes or numbers of rings.
+// kind than coordinates: colours, normals, intensities, classes or numbers of rings. But if they are all
+// equal or not finite, every second record is empty.
 bool columns_fit_better(const std::vector<float>& values, std::size_t fields, std::size_t other) {
   const std::size_t period = std::lcm(fields, other);
   const auto count = static_cast<double>(values.size() / period);
   if (count < kMinColumnValues) return false;
   if (period == other) {
+    const auto is_constant = [](const std::vector<float>& column) {
+      return column.empty() || column.front() == column.back();  // columns are sorted
+    };
+    std::size_t constant = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      constant += is_constant(column_of(values, axis + fields, other)) ? 1 : 0;
+    if (constant == 3) return false;
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (kind_of(column_of(values, axis, other)) >= kind_of(column_of(values, axis + fields, other)))
         return false;
@@ -161,8 +170,9 @@ void require_plausible(const InputFile& file, std::size_t fields) {
                     mixed = better_column_count(values, fields, file.size());
   if (jump == 0 && mixed == 0) return;
   const std::string other = std::to_string(mixed != 0 ? mixed : jump);
-  throw IoError(prefix + (jump != 0 ? "successive points jump; " : "columns mix different values; ") + other +
-                " floats per point fit better: try --bin-fields " + other);
+  throw IoError(prefix +
+                (jump != 0 ? "successive points jump; " : "columns mix coordinates with other values; ") +
+                other + " floats per point fit better: try --bin-fields " + other);
 }
 
 }  // namespace

@@ -71,10 +71,11 @@ GrowingFile::~GrowingFile() {
   if (!created_.empty()) ::unlink(created_.c_str());
 }
 
-// Opens again if another writer has removed or replaced the file between the opening and the locking.
+// Opens again if another writer has removed or replaced the file between the opening and the locking. Some
+// file systems never give the same number for a file, so the number of tries is limited.
 FileDescriptor GrowingFile::open(const std::filesystem::path& file) {
   constexpr int flags = O_WRONLY | O_CLOEXEC;
-  for (;;) {
+  for (int tries = 0;; ++tries) {
     int descriptor = ::open(file.c_str(), flags);
     const bool missing = descriptor < 0 && errno == ENOENT;
     if (missing) descriptor = ::open(file.c_str(), flags | O_CREAT | O_EXCL, 0644);
@@ -84,7 +85,9 @@ FileDescriptor GrowingFile::open(const std::filesystem::path& file) {
     struct stat status, named;
     if (::fstat(opened.get(), &status) == 0 && S_ISREG(status.st_mode)) {
       lock_file(opened);
-      if (::stat(file.c_str(), &named) != 0 || named.st_ino != status.st_ino) continue;
+      const bool replaced =
+          ::stat(file.c_str(), &named) != 0 || named.st_ino != status.st_ino || named.st_dev != status.st_dev;
+      if (replaced && tries < 100) continue;
     }
     if (missing) created_ = file;
     return opened;
@@ -99,7 +102,9 @@ int GrowingFile::begin() {
 
 int GrowingFile::append(std::string_view bytes, std::size_t tail) {
   if (const int error = begin()) return error;
-  if (!tail_.empty() && ::lseek(file_.get(), -static_cast<off_t>(tail_.size()), SEEK_CUR) < 0) return errno;
+  if (!tail_.empty() && ::lseek(file_.get(), -static_cast<off_t>(tail_.size()), SEEK_CUR) < 0 &&
+      errno != ESPIPE)
+    return errno;
   if (const int error = write_whole(file_.get(), bytes, tail_)) return error;
   tail_ = bytes.substr(bytes.size() - tail);
   created_.clear();
@@ -113,19 +118,30 @@ int GrowingFile::close() {
   return file_.close() ? 0 : errno;
 }
 
-std::shared_ptr<const FileDescriptor> lock_folder(const std::filesystem::path& folder) {
+std::shared_ptr<const FileDescriptor> lock_folder(const std::filesystem::path& folder, bool exclusive) {
   static std::mutex mutex;
   static auto* const locked = new std::map<std::pair<dev_t, ino_t>, std::weak_ptr<const FileDescriptor>>;
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return nullptr;
-  auto opened = std::make_shared<const FileDescriptor>(descriptor);
+  // Closes under the mutex: an expired entry of `locked` is then also an unlocked folder.
+  std::shared_ptr<const FileDescriptor> opened(new FileDescriptor(descriptor),
+                                               [](const FileDescriptor* unlocked) {
+                                                 const std::lock_guard lock(mutex);
+                                                 delete unlocked;
+                                               });
   struct stat status;
   if (::fstat(descriptor, &status) != 0) return nullptr;
-  const std::lock_guard lock(mutex);
+  std::unique_lock lock(mutex);
   std::weak_ptr<const FileDescriptor>& known = (*locked)[{status.st_dev, status.st_ino}];
-  if (auto ours = known.lock()) return ours;
+  if (auto ours = known.lock()) {
+    lock.unlock();
+    if (exclusive) throw IoError("locked: another output writes to this folder");
+    return ours;
+  }
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-    if (errno == EWOULDBLOCK) throw IoError("locked: another program writes to this folder");
+    const bool is_locked = errno == EWOULDBLOCK;
+    lock.unlock();
+    if (is_locked) throw IoError("locked: another program writes to this folder");
     return nullptr;
   }
   known = opened;

@@ -72,7 +72,9 @@ std::string las_units_note(const InputFile& file, std::size_t begin, std::size_t
     at += kRecordHeader + length;
   }
   if (units.degrees) return "x and y are longitude and latitude: all distances in their plane are in degrees";
-  if (units.feet) return "the coordinate system has feet: coordinates and distances are in its units";
+  if (units.feet)
+    return "coordinates are in feet (the coordinate system of the file): distances and tolerances are feet, "
+           "too";
   return {};
 }
 

@@ -88,18 +88,21 @@ PlyProperty read_property(const Words& words, std::string_view line) {
 }
 
 // Returns whether a comment or obj_info states an offset of the coordinates, for which programs have keys of
-// their own, such as "comment offset 500000 4200000 0".
+// their own, such as "comment offset 500000 4200000 0". Behind the key is a number, and one number is not 0.
 bool states_offset(std::string_view line) {
-  constexpr std::string_view digits = "0123456789";
-  if (line.find_first_of(digits) == std::string_view::npos) return false;
-  std::string words(1, ' ');
+  std::string text;
   for (const char c : line)
-    words += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c >= 'a' && c <= 'z' ? c : ' ';
-  words += ' ';
-  constexpr std::string_view keys[] = {" offset ",      " offsetx ", " offsets ",     " shift ",
-                                       " globalshift ", " shiftx ",  " translation ", " transform "};
-  return std::any_of(std::begin(keys), std::end(keys),
-                     [&](std::string_view key) { return words.find(key) != std::string::npos; });
+    text += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a')
+            : std::string_view(":=,;()[]_").find(c) != std::string_view::npos ? ' '
+                                                                              : c;
+  constexpr std::string_view keys[] = {"offset",      "offsetx", "offsets",     "shift",
+                                       "globalshift", "shiftx",  "translation", "transform"};
+  const Words words = split(text);
+  const auto key = std::find_first_of(words.begin(), words.end(), std::begin(keys), std::end(keys));
+  if (key == words.end()) return false;
+  double number = 0;
+  const auto first = std::find_if(key + 1, words.end(), [&](auto word) { return read_number(word, number); });
+  return std::any_of(first, words.end(), [&](auto word) { return read_number(word, number) && number != 0; });
 }
 
 struct Contents {

@@ -129,7 +129,7 @@ std::optional<TextStart> find_numbers(std::string_view text, bool more, const Kn
     const std::string_view line = without_blanks_around(text.substr(at, end - at));
     const std::size_t begin = std::exchange(at, end + 1);
     if (line.empty()) continue;
-    if (!start.point_count && at < text.size() && is_count(line)) {
+    if (!start.point_count && (more || at < text.size()) && is_count(line)) {
       read_number(line, start.point_count.emplace());
       continue;
     }

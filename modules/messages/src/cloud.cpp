@@ -158,6 +158,7 @@ struct Selection {
 // Returns whether the data could have more points than the message says.
 bool has_more_data(const msg::PointCloud2& cloud) {
   const Layout layout = layout_of(cloud);
+  if (layout.points() == 0) return false;
   const std::uint64_t rows = layout.height, size = cloud.data.size;
   std::uint64_t row = layout.row_bytes;
   if (cloud.row_step > row && cloud.row_step <= size / rows)

@@ -33,7 +33,7 @@ std::string printable_name(const std::filesystem::path& file) {
 }
 
 // Returns whether the file is NAME.json or NAME_0.json, NAME_1.json, ... of the capture NAME.pcap.
-// NAME_1.json is not if there is a capture NAME_1.pcap.
+// NAME_1.json belongs to NAME_1.pcap instead, if that capture exists.
 bool is_own_file(const std::filesystem::path& file, const std::filesystem::path& capture) {
   const std::string stem = file.stem().string(), name = capture.stem().string();
   if (stem == name) return true;
@@ -45,17 +45,14 @@ bool is_own_file(const std::filesystem::path& file, const std::filesystem::path&
                                   unknown);
 }
 
-// Returns the .json files in a folder, sorted: at most kMaxOusterFiles of the capture, and as many others.
+// Returns the .json files in the folder of a capture, sorted.
 std::vector<std::filesystem::path> json_files_next_to(const std::filesystem::path& capture) {
   std::vector<std::filesystem::path> files;
   const std::filesystem::path folder = capture.has_parent_path() ? capture.parent_path() : ".";
   std::error_code error;
-  std::size_t own = 0, others = 0;
   for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     std::error_code unknown;
-    if (it->path().extension() != ".json" || !it->is_regular_file(unknown)) continue;
-    if (++(is_own_file(it->path(), capture) ? own : others) > kMaxOusterFiles) continue;
-    files.push_back(it->path());
+    if (it->path().extension() == ".json" && it->is_regular_file(unknown)) files.push_back(it->path());
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -86,18 +83,34 @@ bool give_same_points(const OusterMetadata& a, const OusterMetadata& b) {
 
 }  // namespace
 
+// Reads the first kMaxOusterFiles of the .json files that are wanted.
+template <typename Wanted>
+void OusterMetadataFiles::read_files(const Wanted& wanted, bool own) {
+  std::size_t count = 0;
+  for (const std::filesystem::path& file : json_files_next_to(capture_)) {
+    if (!wanted(file)) continue;
+    if (++count > kMaxOusterFiles) {
+      folder_is_cut_ = true;
+      return;
+    }
+    read(file, own);
+  }
+}
+
 OusterMetadataFiles::OusterMetadataFiles(std::filesystem::path capture) : capture_(std::move(capture)) {
   std::filesystem::path same_name = capture_;
   std::error_code unknown;
   if (std::filesystem::exists(same_name.replace_extension(".json"), unknown)) read(same_name, true);
-  for (const std::filesystem::path& file : json_files_next_to(capture_))
-    if (is_own_file(file, capture_) && file.stem() != capture_.stem()) read(file, true);
+  read_files(
+      [&](const std::filesystem::path& file) {
+        return is_own_file(file, capture_) && file.stem() != capture_.stem();
+      },
+      true);
 }
 
 void OusterMetadataFiles::read_folder() {
   has_read_folder_ = true;
-  for (const std::filesystem::path& file : json_files_next_to(capture_))
-    if (!is_own_file(file, capture_)) read(file, false);
+  read_files([&](const std::filesystem::path& file) { return !is_own_file(file, capture_); }, false);
 }
 
 void OusterMetadataFiles::read(const std::filesystem::path& file, bool is_own) {
@@ -118,7 +131,7 @@ int OusterMetadataFiles::rank(const File& file, const Payload& packet) const {
                       init_id = header_number(packet, *m.profile, 4, 3);
   if (serial != 0 && m.serial != 0 && serial != m.serial) return -1;
   const bool same_serial = serial != 0 && serial == m.serial;
-  if (!file.is_own && (!problem_.empty() || (!same_serial && files_.size() > 1))) return -1;
+  if (!file.is_own && !same_serial && (!problem_.empty() || files_.size() > 1)) return -1;
   return (file.is_own ? 8 : 0) + (same_serial ? 4 : 0) + (init_id != 0 && init_id == m.init_id ? 2 : 0) +
          (packet.destination_port == m.port ? 1 : 0);
 }
@@ -166,7 +179,8 @@ std::string OusterMetadataFiles::missing_for(const Payload& packet) const {
   if (files.empty() && !problem_.empty()) return problem_;
   if (files.empty()) add_files(false);
   if (files.empty())
-    return "the metadata of the Ouster sensor is missing: put its .json file next to the capture, as " + own;
+    return "the metadata of the Ouster sensor is missing: put its .json file next to the capture, as " + own +
+           (folder_is_cut_ ? " (only the first 64 .json files of the folder were read)" : "");
   // Without a serial number, several files with the right size of packets may fit.
   const auto has_size = [&](const File* file) { return file->metadata.packet_size() == packet.size; };
   if (files.size() > 1 && serial_of(packet) == 0)

@@ -51,6 +51,8 @@ class OusterMetadataFiles {
     OusterMetadata metadata{};
   };
 
+  template <typename Wanted>
+  void read_files(const Wanted& wanted, bool own);
   void read(const std::filesystem::path& file, bool is_own);
   int rank(const File& file, const Payload& packet) const;
   std::vector<const File*> best_files(const Payload& packet) const;
@@ -58,7 +60,7 @@ class OusterMetadataFiles {
   std::filesystem::path capture_;
   std::vector<File> files_;
   std::string problem_;  // of the first own file that cannot be used
-  bool has_read_folder_ = false;
+  bool has_read_folder_ = false, folder_is_cut_ = false;
 };
 
 }  // namespace pcl_bv::detail

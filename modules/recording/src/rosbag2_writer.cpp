@@ -63,7 +63,7 @@ class Rosbag2Writer::State {
   explicit State(const fs::path& folder) : folder_(folder), file_(name_of(folder) + "_0.db3") {
     create_folder(folder);
     if (::access(folder_.c_str(), W_OK | X_OK) != 0) throw IoError(system_reason(errno));
-    lock_ = lock_folder(folder_);
+    lock_ = lock_folder(folder_, true);
   }
   ~State() { release(); }
   State(const State&) = delete;

@@ -79,7 +79,7 @@ class VelodyneFamily final : public SensorFamily {
   std::optional<std::size_t> model_of(const Payload& packet) const override {
     const VelodyneModel* const model = velodyne_model(packet);
     if (model == nullptr) return std::nullopt;
-    return number_of(*model);
+    return index_of(*model);
   }
 
   std::string_view model_name(std::size_t model) const override { return velodyne_model(model).name; }

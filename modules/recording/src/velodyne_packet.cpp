@@ -62,7 +62,7 @@ std::size_t blocks_per_firing(const Payload& packet) {
 
 // Returns the rotation between two azimuths in the direction of rotation, which is 1 or -1. It is less than a
 // revolution.
-double turned_between(double from, double to, double direction) {
+double rotation_between(double from, double to, double direction) {
   const double difference = azimuth_difference(from, to);
   return direction * difference < -kAzimuthJitter ? difference + direction * kRevolution : difference;
 }
@@ -82,12 +82,12 @@ const VelodyneModel* velodyne_model(const Payload& packet) {
   return found == std::end(kVelodyneModels) ? nullptr : found;
 }
 
-std::size_t number_of(const VelodyneModel& model) {
+std::size_t index_of(const VelodyneModel& model) {
   return static_cast<std::size_t>(&model - std::begin(kVelodyneModels));
 }
 
-const VelodyneModel& velodyne_model(std::size_t number) {
-  return kVelodyneModels[number];
+const VelodyneModel& velodyne_model(std::size_t index) {
+  return kVelodyneModels[index];
 }
 
 double azimuth_difference(double from, double to) {
@@ -106,7 +106,7 @@ VelodyneFirings::VelodyneFirings(const Payload& packet)
   step = *middle;
   const double direction = step < 0 ? -1 : 1;
   for (std::size_t i = 0; i + 1 < count; ++i) {
-    const double turned = turned_between(azimuth[i], azimuth[i + 1], direction);
+    const double turned = rotation_between(azimuth[i], azimuth[i + 1], direction);
     rotation[i + 1] = rotation[i] + turned;
     const bool is_leap = step != 0 && std::abs(turned) > max_step(step);
     advance[i] = !is_leap ? turned : i > 0 ? advance[i - 1] : step;
@@ -114,6 +114,17 @@ VelodyneFirings::VelodyneFirings(const Payload& packet)
     leaps += leap[i + 1];
   }
   advance[count - 1] = advance[count - 2];
+  for (std::size_t i = 1; i + 1 < count; ++i)
+    if (leap[i] != 0 && leap[i + 1] != 0) return ignore_leaps();
+}
+
+// For a packet with a single firing between two leaps: its azimuth is wrong, and there is no gap.
+void VelodyneFirings::ignore_leaps() {
+  leap.fill(0);
+  leaps = 0;
+  advance.fill(step);
+  for (std::size_t i = 0; i + 1 < count; ++i)
+    rotation[i + 1] = rotation[i] + azimuth_difference(azimuth[i], azimuth[i + 1]);
 }
 
 }  // namespace pcl_bv::detail

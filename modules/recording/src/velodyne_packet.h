@@ -44,8 +44,8 @@ struct VelodyneModel {
 const VelodyneModel* velodyne_model(const Payload& packet);
 
 /// Returns the number of the model in the list of models, and the model with this number.
-std::size_t number_of(const VelodyneModel& model);
-const VelodyneModel& velodyne_model(std::size_t number);
+std::size_t index_of(const VelodyneModel& model);
+const VelodyneModel& velodyne_model(std::size_t index);
 
 /// Returns the product id (last byte) of a Velodyne packet, or -1 for other packets.
 int velodyne_product(const Payload& packet);
@@ -88,6 +88,9 @@ struct VelodyneFirings {
   static double max_step(double step) { return 1.5 * std::abs(step) + 10; }
   /// Returns the rotation from the first to the last firing.
   double total() const { return rotation[count - 1]; }
+
+ private:
+  void ignore_leaps();
 };
 
 }  // namespace pcl_bv::detail

@@ -115,7 +115,9 @@ class OpenLabelBoxes {
       if (is_dont_care(object)) dont_care_.insert(id);
   }
 
-  void append(const LabelJson& json, const std::string& path, bool objects = false) {
+  // `system` is the coordinate system of the object that contains this value; empty if it names none.
+  void append(const LabelJson& json, const std::string& path, std::string_view system = {},
+              bool objects = false) {
     if (!json.is_structured()) return;
     std::size_t i = 0;
     for (const auto& [key, value] : json.items()) {
@@ -125,22 +127,26 @@ class OpenLabelBoxes {
       std::string inner = path;
       inner += json.is_object() ? '.' + key.substr(0, kMaxNameBytes) : '[' + std::to_string(i - 1) + ']';
       if (json.is_object() && key == "cuboid") {
-        require_one_system(value, inner);
+        require_one_system(value, inner, system);
         append_boxes(value, inner, openlabel_box, volumes_);
       } else {
-        append(value, inner, json.is_object() && key == "objects");
+        append(value, inner, system_of(value, system), json.is_object() && key == "objects");
       }
     }
   }
 
  private:
+  static std::string_view system_of(const LabelJson& json, std::string_view otherwise) {
+    const auto found = json.is_object() ? json.find("coordinate_system") : json.end();
+    return found == json.end() || !found->is_string() ? otherwise : found->get_ref<const std::string&>();
+  }
+
   // Boxes of several coordinate systems cannot all be in the frame of the cloud.
-  void require_one_system(const LabelJson& cuboids, const std::string& path) {
+  void require_one_system(const LabelJson& cuboids, const std::string& path, std::string_view otherwise) {
     if (!cuboids.is_array()) return;
     for (const LabelJson& cuboid : cuboids) {
-      const auto found = cuboid.is_object() ? cuboid.find("coordinate_system") : cuboid.end();
-      if (found == cuboid.end() || !found->is_string()) continue;
-      const auto& name = found->get_ref<const std::string&>();
+      const std::string_view name = system_of(cuboid, otherwise);
+      if (name.empty() || is_dont_care(cuboid)) continue;
       if (system_.empty()) system_ = name;
       if (name != system_)
         refuse(path + ": the coordinate_system is " + in_quotes(name) + ", that of boxes before is " +

@@ -69,6 +69,7 @@ void add_content(std::string_view json, Tile& tile) {
     if (key == "uri" || key == "url") uri = value;  // url: version 0.0
     TileBound unused;
     if (key == "boundingVolume") content.volume = read_volume(value, unused);
+    tile.has_metadata = tile.has_metadata || key == "metadata";
   });
   if (uri.empty()) refuse("has no \"uri\"");
   const UntrustedJson text = read_json(uri);
@@ -102,14 +103,12 @@ void require_known_extensions(const char* list, std::string_view json) {
   }
 }
 
-// Metadata may give tiles other volumes than the tileset's own.
-void require_no_volumes(std::string_view schema) {
-  for (const char* semantic :
-       {"\"TILE_BOUNDING_", "\"CONTENT_BOUNDING_", "\"TILE_TRANSFORM", "\"CONTENT_URI"})
-    if (schema.find(semantic) != std::string_view::npos)
-      throw IoError("its metadata has the semantic " + std::string(semantic + 1) +
-                    (semantic[std::string_view(semantic).size() - 1] == '_' ? "..." : "") +
-                    ", which replaces keys of its tiles");
+// Returns whether the metadata of tiles or contents may replace their volumes, transforms or uris.
+bool has_semantics_of_tiles(std::string_view schema) {
+  constexpr std::string_view semantics[] = {"\"TILE_BOUNDING_", "\"CONTENT_BOUNDING_", "\"TILE_TRANSFORM",
+                                            "\"CONTENT_URI"};
+  return std::ranges::any_of(
+      semantics, [&](std::string_view semantic) { return schema.find(semantic) != std::string_view::npos; });
 }
 
 }  // namespace
@@ -159,7 +158,8 @@ TileTree::TileTree(const std::filesystem::path& file) {
     if (key == "root") root = value;
     if (key == "asset") read_asset(value);
     if (key == "extensionsRequired") require_known_extensions("extensionsRequired", value);
-    if (key == "schema") require_no_volumes(value);
+    if (key == "schema") metadata_has_volumes_ = metadata_has_volumes_ || has_semantics_of_tiles(value);
+    if (key == "schemaUri") metadata_has_volumes_ = true;  // the file of the schema is not read
     if (key == "extensions")
       for_each_value(value, [](const std::string& name, std::string_view) {
         if (name == "3DTILES_ellipsoid") throw IoError("has another ellipsoid than WGS84: 3DTILES_ellipsoid");
@@ -196,6 +196,7 @@ std::size_t TileTree::add_tile(std::string_view json, std::size_t depth,
   for_each_value(json, [&](const std::string& key, std::string_view value) {
     if (key == "boundingVolume") tile.volume = read_volume(value, tile.bound);
     has_volume = has_volume || key == "boundingVolume";
+    tile.has_metadata = tile.has_metadata || key == "metadata";
     if (key == "children") children = value;
     if (key == "transform") tile.to_parent = column_major("transform", read_json(value));
     if (key == "content") add_content(value, tile);
@@ -204,6 +205,8 @@ std::size_t TileTree::add_tile(std::string_view json, std::size_t depth,
     if (key == "implicitTiling") tile.problem = "implicit tiling: volumes cannot be computed";
   });
   if (!has_volume) throw IoError("is no tileset: a tile has no \"boundingVolume\"");
+  if (tile.has_metadata && metadata_has_volumes_)
+    tile.problem = "its metadata may replace its volumes, which therefore stay";
   regions_ = regions_ || tile.volume.kind == BoundKind::region;
   for (const TileContent& content : tile.contents)
     regions_ = regions_ || (content.volume && content.volume->kind == BoundKind::region);

@@ -44,8 +44,9 @@ struct Tile {
   std::size_t depth = 0;
   std::vector<std::size_t> children;
   std::vector<TileContent> contents;
-  TileBound bound;      ///< At first that of the old volume.
-  std::string problem;  ///< Why the volume stays; empty if there is no reason.
+  TileBound bound;            ///< At first that of the old volume.
+  bool has_metadata = false;  ///< Of the tile or of a content.
+  std::string problem;        ///< Why the volume stays; empty if there is no reason.
 };
 
 /// The root is the first tile, and children come after their parents.
@@ -72,6 +73,7 @@ class TileTree {
   std::vector<Tile> tiles_;
   UpAxis up_axis_ = UpAxis::y;
   bool regions_ = false;
+  bool metadata_has_volumes_ = false;
 };
 
 /// Returns the bound of a volume, whose list of numbers is JSON. Throws std::invalid_argument for a wrong

@@ -113,25 +113,35 @@ class Fitter {
   void fit(Tile& tile) const {
     if (!tile.problem.empty()) return;
     try {
-      fit_contents_and(tile);
+      fit_volumes(tile);
     } catch (const std::exception& error) {
-      for (TileContent& content : tile.contents)
-        if (content.volume) content.volume->text.clear();
+      keep_volumes(tile);
       tile.problem = reason_of(error);
     }
   }
 
  private:
-  void fit_contents_and(Tile& tile) const {
+  static void keep_volumes(Tile& tile) {
+    for (TileContent& content : tile.contents)
+      if (content.volume) content.volume->text.clear();
+  }
+
+  void fit_volumes(Tile& tile) const {
     TileBound bound;
     if (tree_.has_regions()) bound.region.emplace(std::vector<double>(), tile.to_root);
     std::vector<double> points;
     std::string problem;
-    if (!add_contents(tile, points, bound, problem)) return;
-    if (!add_children(tile, points, bound) || points.empty()) return;
+    const bool known = add_contents(tile, points, bound, problem) && add_children(tile, points, bound);
+    tile.problem = std::move(problem);
+    if (!known || points.empty()) {
+      const bool computed = std::ranges::any_of(
+          tile.contents, [](const TileContent& c) { return c.volume && !c.volume->text.empty(); });
+      if (computed) tile.problem = "volumes of contents stay, because the volume of a child is unknown";
+      keep_volumes(tile);
+      return;
+    }
     set_volume(tile.volume, points, bound);
     tile.bound = std::move(bound);
-    tile.problem = std::move(problem);
   }
 
   // Appends the points of all contents, and the corners of their volumes. Returns false if one of them is an

@@ -55,8 +55,8 @@ class PointBoxes {
         if (!test(i, end)) return false;
       } else {
         std::size_t level = 0;  // the largest box that begins at i and ends within the run
-        for (std::uint32_t size = 2 * group_size; i % size == 0 && size <= run.end - i; size *= 2, ++level)
-          end = i + size;
+        for (std::uint64_t size = 2 * group_size; i % size == 0 && size <= run.end - i; size *= 2, ++level)
+          end = i + static_cast<std::uint32_t>(size);
         if (!in_box(level, i / (end - i), p, skip, test)) return false;
       }
       i = end;

@@ -39,7 +39,7 @@ struct Product {
         exact(a == 0 || b == 0 || std::abs(a) == 1 || std::abs(b) == 1 || std::abs(high) >= 0x1p-900) {}
 
   double high, low;
-  bool exact;  // low may be rounded otherwise
+  bool exact;  // whether high + low is the product; not if low may have underflowed
 };
 
 }  // namespace

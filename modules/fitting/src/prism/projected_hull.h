@@ -49,7 +49,7 @@ class GroundProjection {
 
   Eigen::Vector3d axes_[2];
   SmallVector<double, 4> normal_[3];  // terms whose exact sums are the components of axes_[0] x axes_[1]
-  bool has_exact_normal_ = true;      // whether they are; products may underflow
+  bool has_exact_normal_ = true;      // whether normal_ is exact
   double scale_;                      // for exact_turn()
   double error_bound_ = 0;            // of the rounded coordinates
 };

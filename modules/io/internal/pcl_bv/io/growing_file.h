@@ -19,9 +19,9 @@ namespace [[gnu::visibility("default")]] detail {
 /// the errno value of the failure.
 ///
 /// After a failure, such as a full disk, a regular file has its former end: the bytes that were written are
-/// removed. `overwritten` is the old content at the position of `bytes`, and is written again. What another
-/// program has appended meanwhile stays, and then `bytes` stays cut. Bytes that a pipe or a device took
-/// cannot be removed.
+/// removed. `overwritten` is the old content at the position of `bytes`, and is written again. If another
+/// program has appended to the file meanwhile, nothing is removed, and a part of `bytes` stays in the file.
+/// Bytes that a pipe or a device took cannot be removed.
 int write_whole(int descriptor, std::string_view bytes, std::string_view overwritten = {});
 
 /// A file that is written piece by piece. No other GrowingFile of this machine writes to the same regular
@@ -56,9 +56,10 @@ class GrowingFile {
 };
 
 /// Locks a folder for the files that this process writes to it, until the last copy of the returned pointer
-/// is destroyed or the process ends (flock). Throws IoError if another process has locked the folder. Returns
-/// null if the folder cannot be opened or its file system has no locks.
-std::shared_ptr<const FileDescriptor> lock_folder(const std::filesystem::path& folder);
+/// is destroyed or the process ends (flock). Throws IoError if another process has locked the folder, or if
+/// `exclusive` and another call of this process has. Returns null if the folder cannot be opened or its file
+/// system has no locks.
+std::shared_ptr<const FileDescriptor> lock_folder(const std::filesystem::path& folder, bool exclusive = false);
 
 }  // namespace detail
 }  // namespace pcl_bv
