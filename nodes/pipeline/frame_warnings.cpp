@@ -125,7 +125,7 @@ std::string track_times(const Found& f) {
 
 // Returns whether the sensor of a rig has returns, but no times of a sweep.
 bool lacks_times(const Frame& frame, const SensorPart& part) {
-  if (frame.seconds == nullptr || have_sweep(frame.seconds + part.first, part.count)) return false;
+  if (frame.seconds == nullptr || times_differ(frame.seconds + part.first, part.count)) return false;
   for (std::size_t i = part.first; i < part.first + part.count; ++i)
     if (has_return(load_point(frame.points, i))) return true;
   return false;

@@ -170,8 +170,12 @@ TEST_F(GroundOffOrigin, AnOriginFarAwayIsSaidToBeTakenForTheSensor) {
   const Result result = run({"--origin", "auto", "--cluster", "0.5:0.01", "--volume", "aabb", cloud});
   EXPECT_THAT(
       result.err,
-      HasSubstr("the sensor is assumed at the new origin (--origin), more than 500 m from the recorded "
-                "one: this decides about --cluster PER_METRE"));
+      HasSubstr("the sensor is assumed at the new origin (--origin), because 0,0,0 is more than 500 m "
+                "from it; used by: --cluster PER_METRE"));
+  EXPECT_THAT(run({"--together", "--origin", "auto", "--range", "1:60", "--cluster", "0.5", "--volume",
+                   "aabb", cloud})
+                  .err,
+              HasSubstr("used by: --range"));
   EXPECT_EQ(run({"--origin", "auto", "--cluster", "0.5", "--volume", "aabb", cloud}).err, "");
   const Result sensor = objects(cloud, {"--origin", "auto", "--sensor", "0,0,0"});
   EXPECT_EQ(sensor.status, 2);

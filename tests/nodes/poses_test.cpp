@@ -141,9 +141,9 @@ TEST_F(Poses, OfKittiAreMatchedByTheNumbersInTheNamesIfFramesAreMissing) {
     ReplayOptions options{10, false, 0, 2};  // twice
     options.poses = path_ / "poses.txt";
     const auto source = open_source(path_, options);
-    EXPECT_EQ(source->take_warnings(),
-              (std::vector{(path_ / "poses.txt").string() +
-                           ": 11 poses of 3 frames: matched by the numbers in the file names, 1 to 10"}));
+    EXPECT_EQ(source->take_warnings(), (std::vector{(path_ / "poses.txt").string() +
+                                                    ": 11 poses of 3 frames: matched by the numbers in the "
+                                                    "file names, 1 to 10 (the first pose is number 0)"}));
     EXPECT_TRUE(source->take_warnings().empty());
     Frame frame;
     for (const int x : {1, 4, 10, 1, 4, 10}) {

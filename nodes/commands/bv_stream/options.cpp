@@ -133,8 +133,12 @@ bool has_bin_files(const std::string& source) {
   const auto is_bin = [](const std::filesystem::path& file) { return lower_case_extension(file) == ".bin"; };
   std::error_code unknown;
   if (!std::filesystem::is_directory(source, unknown)) return is_bin(source);
-  const std::vector<std::filesystem::path> clouds = list_clouds(source);
-  return std::any_of(clouds.begin(), clouds.end(), is_bin);
+  try {
+    const std::vector<std::filesystem::path> clouds = list_clouds(source);
+    return std::any_of(clouds.begin(), clouds.end(), is_bin);
+  } catch (const IoError& error) {
+    throw IoError(source + ": " + error.what());
+  }
 }
 
 // Throws UsageError for options that have no effect on these sources.
@@ -145,12 +149,11 @@ void reject_useless_for_sources(const CommandLine& line, const Texts& t, const S
     if (files && !exists(source)) throw IoError(source + ": no such file or folder");
   const bool bin =
       files && line.given("--bin-fields") && std::any_of(t.sources.begin(), t.sources.end(), has_bin_files);
-  const bool names_topics = merges && !config.rig.sensors.empty();
+  if (line.given("--topic") && merges && !config.rig.sensors.empty())
+    throw UsageError("--topic: cannot be combined with rig.sensors, which names the topics");
   reject_useless({{"--topic", line.given("--topic"), times == FrameTimes::messages, "a recording"},
-                  {"--topic", line.given("--topic"), !names_topics, "no topics in rig.sensors"},
                   {"--bin-fields", line.given("--bin-fields"), bin, ".bin files"},
-                  {"--stamps name", t.stamps == "name", files, "files, whose names have times"},
-                  {"--sync", line.given("--sync"), merges, "--target-frame"}});
+                  {"--stamps name", t.stamps == "name", files, "files, whose names have times"}});
 }
 
 void read_replay(const CommandLine& line, const Texts& t, StreamOptions& options) {
@@ -195,6 +198,7 @@ StreamOptions to_options(const CommandLine& line, const Texts& t, const std::str
     throw UsageError("--source: several sources need --target-frame, the frame of their merged clouds");
   if (merges && line.given("--loop")) throw UsageError("--loop: not with --target-frame");
   if (merges && line.given("--frame-id")) throw UsageError("--frame-id: not with --target-frame");
+  reject_useless({{"--sync", line.given("--sync"), merges, "--target-frame"}});
   options.replay.point_times = options.config.pipeline.deskew != Deskew::off;
   read_replay(line, t, options);
   if (const auto& field = options.config.pipeline.cluster.class_field)

@@ -22,10 +22,20 @@ class PassStamps {
     if (frame.pass != pass_) begin_pass(frame.pass, stamp);
     std::int64_t moved = 0;
     if (__builtin_add_overflow(stamp, shift_, &moved)) moved = stamp;
+    frame.stamp_shift_ns = moved - stamp;
     frame.header.stamp_ns = moved;
     first_ = count_ > 0 ? std::min(first_, moved) : moved;
     last_ = count_ > 0 ? std::max(last_, moved) : moved;
     ++count_;
+  }
+
+  /// Moves the stamp of a frame that could not be read. Its clock may be another one, so later stamps do not
+  /// depend on it.
+  void move_unreadable(Frame& frame) const {
+    std::int64_t moved = 0;
+    if (frame.pass == pass_ && frame.header.stamp_ns >= 0 &&
+        !__builtin_add_overflow(frame.header.stamp_ns, shift_, &moved))
+      frame.header.stamp_ns = moved;
   }
 
  private:

@@ -107,7 +107,7 @@ class Reader {
         stamps_.move(frame);
         hand_over(std::move(frame));
       } catch (FrameError& error) {
-        if (error.frame.header.stamp_ns >= 0) stamps_.move(error.frame);
+        stamps_.move_unreadable(error.frame);
         if (paced() && error.frame.header.stamp_ns >= 0) due(error.frame);  // advances the schedule
         runner_.report_unreadable(error.frame, error.reason);
       } catch (const std::exception& error) {

@@ -134,9 +134,10 @@ std::string stem(const std::string& input) {
   return name;
 }
 
-// Throws UsageError for options that have no effect on any of the inputs. An input that cannot be read counts
-// as one of any kind, because its own error follows.
+// Throws UsageError for options that have no effect on any of the inputs. An input that cannot be
+// read is treated as an input of every kind, because its own error follows.
 void reject_useless_for_inputs(const Options& options, const std::vector<Job>& jobs) {
+  if (jobs.empty()) return;
   const auto any = [&](const auto& matches) {
     return std::any_of(jobs.begin(), jobs.end(), [&](const Job& job) {
       std::error_code unknown;

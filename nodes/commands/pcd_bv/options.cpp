@@ -225,9 +225,11 @@ Options to_options(const CommandLine& line, const Texts& texts, PipelineConfig c
     options.columns = texts.columns;
   }
   if (line.given("--origin")) options.origin = parse_origin(texts.origin);
-  if (options.origin.requested && !options.origin.at && options.pipeline.ground.sensor)
+  const GroundConfig& ground = options.pipeline.ground;
+  if (options.origin.requested && !options.origin.at && ground.sensor && ground.method == GroundMethod::zones)
     throw UsageError(
-        "--origin auto: cannot be combined with --sensor, whose coordinates are those after the subtraction");
+        "--origin auto: cannot be combined with --sensor (ground.sensor), whose coordinates are those after "
+        "the subtraction: use --origin X,Y,Z");
   read_outputs(line, texts, options);
   if (line.given("--object-type"))
     options.object_type = checked_object_type(texts.object_type, options.format);

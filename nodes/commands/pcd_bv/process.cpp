@@ -116,27 +116,6 @@ Status write_files(const Job& job, const Options& options, const Frame& frame, c
   return status;
 }
 
-/// Returns a warning if a setting depends on the position of the sensor, but the points were moved so far
-/// that nothing is known about it (recorded_origin()).
-std::string origin_warning(const Frame& frame, const std::optional<Eigen::Vector3d>& origin,
-                           const Options& options) {
-  if (!origin || origin->isZero(0) || !frame.recorded_origin.isZero(0)) return {};
-  const PipelineConfig& config = options.pipeline;
-  std::string settings;
-  const auto add = [&](bool used, const char* name) {
-    if (used) settings.append(settings.empty() ? "" : ", ").append(name);
-  };
-  add(config.filter.range_min > 0 || config.filter.range_max < std::numeric_limits<double>::infinity(),
-      "--range");
-  add(config.cluster.tolerance_per_metre > 0, "--cluster PER_METRE");
-  add(config.ground.method == GroundMethod::zones && !config.ground.sensor && !frame.sensor,
-      "--ground zones");
-  if (settings.empty()) return {};
-  return "the sensor is assumed at the new origin (--origin), more than 500 m from the recorded one: this "
-         "decides about " +
-         settings;
-}
-
 /// Returns the warnings that a user should read before trusting the results.
 std::vector<std::string> result_warnings(const Frame& frame, const FrameResult& result,
                                          const std::optional<Eigen::Vector3d>& origin,
@@ -144,7 +123,7 @@ std::vector<std::string> result_warnings(const Frame& frame, const FrameResult& 
   std::vector<std::string> warnings;
   const std::string range = range_warning(result, options.range_from);
   if (!range.empty()) warnings.push_back(range);
-  const std::string moved = origin_warning(frame, origin, options);
+  const std::string moved = origin_warning(origin, frame.sensor.has_value(), options);
   if (!moved.empty()) warnings.push_back(moved);
   warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
   Aabb box;

@@ -11,6 +11,7 @@
 #include "ground_parts.h"
 #include "object_shares.h"
 #include "pcl_bv/io/untrusted_text.h"
+#include "shifted_points.h"
 #include "tile_progress.h"
 
 namespace pcl_bv {
@@ -156,6 +157,8 @@ Status detail::make_partial_file(const Job& job, const Options& options) {
   if (options.clusters()) return make_object_file(job, options);
   if (options.writes_ground_part()) return make_ground_part(job, options);
   const Interruption interruption([] {});
+  const std::string moved = origin_warning(options.origin.at, false, options);
+  if (!moved.empty()) report_problem(moved);
   if (!job.partials.empty()) {
     const std::optional<MergedClouds> merged = merge_files(job.partials);
     return merged ? write_or_report(*options.partial, *merged) : Status::failed;

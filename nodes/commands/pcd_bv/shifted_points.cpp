@@ -4,6 +4,7 @@
 #include "shifted_points.h"
 
 #include <cstring>
+#include <limits>
 
 #include "copy_points.h"
 #include "pcl_bv/fitting/fit.h"
@@ -32,6 +33,26 @@ Eigen::Vector3d recorded_origin(const std::optional<Eigen::Vector3d>& origin) {
   constexpr double farthest = 500;  // metres
   const bool near = origin && origin->array().abs().maxCoeff() <= farthest && origin->norm() <= farthest;
   return near ? Eigen::Vector3d(-*origin) : Eigen::Vector3d::Zero();
+}
+
+std::string origin_warning(const std::optional<Eigen::Vector3d>& origin, bool sensor_known,
+                           const Options& options) {
+  if (!origin || origin->isZero(0) || !recorded_origin(origin).isZero(0)) return {};
+  const FilterConfig& filter = options.pipeline.filter;
+  const GroundConfig& ground = options.pipeline.ground;
+  std::string settings;
+  const auto add = [&](bool used, const char* name) {
+    if (used) settings.append(settings.empty() ? "" : ", ").append(name);
+  };
+  add(filter.range_min > 0 || filter.range_max < std::numeric_limits<double>::infinity(), "--range");
+  add(filter.own_box_min || filter.own_box_max, "filter.own_box_min and own_box_max");
+  add(options.pipeline.cluster.tolerance_per_metre > 0, "--cluster PER_METRE");
+  add(ground.method == GroundMethod::zones && !ground.sensor && !sensor_known, "--ground zones");
+  add(ground.method == GroundMethod::plane && ground.sensor_height, "--sensor-height");
+  if (settings.empty()) return {};
+  return "the sensor is assumed at the new origin (--origin), because 0,0,0 is more than 500 m from it; used "
+         "by: " +
+         settings;
 }
 
 std::vector<std::byte> packed_copy(const PointView& points) {

@@ -172,6 +172,8 @@ Status process_tiled_objects(const Job& job, const Options& options, Report& rep
   counted.counts = report.counts;
   const std::string range = range_warning(counted, options.range_from);
   if (!range.empty()) report_problem(job.input + ": " + range);
+  const std::string moved = origin_warning(loaded.origin(), false, options);
+  if (!moved.empty()) report_problem(job.input + ": " + moved);
   report_ground_warning(report, options);
   if (options.info) {
     const RawCloud& cloud = loaded.cloud();

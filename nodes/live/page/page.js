@@ -258,8 +258,9 @@ export class Page {
     this.changed("colours");
   }
 
-  // Picks nothing any more if the picked track has certainly ended: each frame without it is at least a quarter
-  // of a missed frame. Also if frames are numbered anew, because the ids are then those of other objects.
+  // Ends the selection if the picked track has certainly ended: after 4 * track.death frames without it, since the
+  // tracker counts a frame in which an object may be hidden as a quarter. Also if frames are numbered anew, because
+  // the ids are then those of other objects.
   dropEndedPick({ clusters, seq }) {
     const key = this.view.picked;
     if (key === null) return;
@@ -270,7 +271,7 @@ export class Page {
     const missed = seq - this.pickedSeq;
     if (missed >= 0 && missed <= 4 * (this.settings?.numberOf("track.death") ?? DEATH)) return;
     this.pick(key);
-    notice(`${key} has ended.`);
+    if (key.startsWith("track")) notice(`${key} has ended.`);
   }
 
   keyAt(px, py) {

@@ -35,9 +35,9 @@ double max_rotation_angle(const SensorMotion& motion, const DeskewTimes& times) 
 
 // Returns whether a point of Frame::seconds was measured at another time than another point of its sensor.
 bool has_sweep(const Frame& frame) {
-  if (frame.sensors.empty()) return have_sweep(frame.seconds, frame.points.count);
+  if (frame.sensors.empty()) return times_differ(frame.seconds, frame.points.count);
   return std::any_of(frame.sensors.begin(), frame.sensors.end(), [&](const SensorPart& part) {
-    return have_sweep(frame.seconds + part.first, part.count);
+    return times_differ(frame.seconds + part.first, part.count);
   });
 }
 
@@ -59,7 +59,8 @@ const float* Deskewer::read_times(const Frame& frame, UsableIsa isa, DeskewTimes
   static constexpr TimeUnit kSeconds{"s", 1};
   if (frame.seconds == nullptr) {
     seconds_.resize(frame.points.count);
-    times = point_times_.read(isa, *frame.times, frame.points, frame.header.stamp_ns, seconds_.data());
+    const std::int64_t stamp_of_source = frame.header.stamp_ns - frame.stamp_shift_ns;
+    times = point_times_.read(isa, *frame.times, frame.points, stamp_of_source, seconds_.data());
     return seconds_.data();
   }
   if (has_sweep(frame)) times.unit = &kSeconds;

@@ -147,7 +147,7 @@ DeskewTimes PointTimes::read(UsableIsa isa, const FieldView& field, const PointV
   return times;
 }
 
-bool have_sweep(const float* seconds, std::size_t count) {
+bool times_differ(const float* seconds, std::size_t count) {
   return std::any_of(seconds, seconds + count, [&](float time) { return time != *seconds; });
 }
 

@@ -47,9 +47,9 @@ class PointTimes {
   std::vector<double> sample_;
 };
 
-/// Returns whether not all points have the same time. The points of a sensor in a merged cloud have the same
-/// time if the sensor has no times of a sweep.
-bool have_sweep(const float* seconds, std::size_t count);
+/// Returns whether two points have different times. Equal times are not those of a sweep: all points of a
+/// sensor in a merged cloud have the same time if the sensor has no times of a sweep.
+bool times_differ(const float* seconds, std::size_t count);
 
 /// Returns a warning if the times are relative to an unknown origin, or if points have no time of the sweep;
 /// otherwise an empty text.

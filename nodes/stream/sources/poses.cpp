@@ -118,8 +118,11 @@ Poses::Poses(const std::filesystem::path& file, std::optional<std::size_t> frame
   if (frame_numbers.empty()) fail(counts);
   const auto [first, last] = std::minmax_element(frame_numbers.begin(), frame_numbers.end());
   const std::string range = std::to_string(*first) + " to " + std::to_string(*last);
-  if (*last >= poses_.size()) fail(counts + ", whose names have the numbers " + range);
-  note_ = file.string() + ": " + counts + ": matched by the numbers in the file names, " + range;
+  if (*last >= poses_.size())
+    fail(counts + "; a file name has the number " + std::to_string(*last) + ", but the last pose is number " +
+         std::to_string(poses_.size() - 1));
+  note_ = file.string() + ": " + counts + ": matched by the numbers in the file names, " + range +
+          " (the first pose is number 0)";
   numbers_ = std::move(frame_numbers);
 }
 

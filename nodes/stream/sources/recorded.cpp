@@ -115,7 +115,7 @@ class Recorded final : public FrameSource {
     if (!options_.own_stamps) {
       frame.header.stamp_ns = stamp_by_rate(options_, frame.header.seq);
     } else {
-      if (frame.header.seq == 0 && frame.header.stamp_ns == 0 && begins_without_stamps())
+      if (!std::exchange(checked_stamps_, true) && frame.header.stamp_ns == 0 && begins_without_stamps())
         stamps_.expect_none();
       frame.header.stamp_ns = stamps_.next(frame.header.stamp_ns, message.log_time_ns);
     }
@@ -128,6 +128,7 @@ class Recorded final : public FrameSource {
   std::size_t topic_;
   Poses poses_;
   MessageStamps stamps_;
+  bool checked_stamps_ = false;  // whether the first readable cloud has come
   std::uint64_t seq_ = 0;
   std::size_t index_ = 0, loop_ = 0, warnings_taken_ = 0;
 };

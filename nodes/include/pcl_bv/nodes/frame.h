@@ -69,9 +69,9 @@ struct Frame {
   /// Sensor position in the frame of the points, metres. Set if the source has the position, for example as
   /// VIEWPOINT of a .pcd file.
   std::optional<Eigen::Vector3d> sensor{};
-  /// Where the origin of the points' coordinates was before something moved them, for example pcd_bv's
-  /// --origin; in the frame of the points, metres. Ranges and growing tolerances are measured from here, and
-  /// the sensor is assumed here, unless `sensor` or `sensors` tell more.
+  /// Position that had the coordinates 0, 0, 0 before the points were moved, for example by pcd_bv's
+  /// --origin; in the frame of the points, metres. Ranges and growing tolerances are measured from here. The
+  /// sensor is assumed here if neither `sensor` nor `sensors` is set.
   Eigen::Vector3d recorded_origin = Eigen::Vector3d::Zero();
   /// The sensors of a merged cloud, in the order of their points. Empty for the cloud of a single sensor.
   std::vector<SensorPart> sensors{};
@@ -80,6 +80,8 @@ struct Frame {
   std::int64_t recorded_ns = 0;
   /// Number of the pass over a source that is repeated (ReplayOptions::loops). Tracks end with a pass.
   std::uint64_t pass = 0;
+  /// What was added to the stamp of the source, nanoseconds (--loop). Absolute times of points lack it.
+  std::int64_t stamp_shift_ns = 0;
 
   /// Time from which the latency of the frame is measured. A paced replay sets `taken` to the time at which
   /// the frame is due. A live source sets `taken` to the arrival of the message, or to steady_time(stamp_ns)
