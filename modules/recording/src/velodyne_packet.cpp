@@ -114,8 +114,11 @@ VelodyneFirings::VelodyneFirings(const Payload& packet)
     leaps += leap[i + 1];
   }
   advance[count - 1] = advance[count - 2];
-  for (std::size_t i = 1; i + 1 < count; ++i)
-    if (leap[i] != 0 && leap[i + 1] != 0) return ignore_leaps();
+  for (std::size_t i = 1; i + 1 < count; ++i) {
+    if (leap[i] == 0 || leap[i + 1] == 0) continue;
+    ignore_leaps();
+    break;
+  }
 }
 
 // For a packet with a single firing between two leaps: its azimuth is wrong, and there is no gap.
