@@ -21,13 +21,20 @@
 namespace pcl_bv::detail {
 namespace {
 
-using Rational = boost::multiprecision::cpp_rational;
+using Integer = boost::multiprecision::cpp_int;
 
-// Returns the exact value of axis . (b - a).
-Rational exact_step(const Eigen::Vector3d& axis, const Coordinates& a, const Coordinates& b) {
-  Rational sum = 0;
+// Returns x * 2^1126, which is an integer for every double.
+Integer integer_of(double x) {
+  if (x == 0) return 0;
+  const int exponent = std::ilogb(x) - 52;
+  return Integer(static_cast<std::int64_t>(std::ldexp(x, -exponent))) << (exponent + 1126);
+}
+
+// Returns axis . (b - a), multiplied by 2^2252. Rationals would be reduced after each operation.
+Integer exact_step(const Eigen::Vector3d& axis, const Coordinates& a, const Coordinates& b) {
+  Integer sum = 0;
   for (std::size_t k = 0; k < 3; ++k)
-    sum += Rational(axis[static_cast<int>(k)]) * (Rational(b[k]) - Rational(a[k]));
+    sum += integer_of(axis[static_cast<int>(k)]) * (integer_of(b[k]) - integer_of(a[k]));
   return sum;
 }
 
@@ -100,7 +107,7 @@ int GroundProjection::turn(const ProjectedPoint& a, const ProjectedPoint& b, con
 }
 
 // With the axes e and n, (e . ab) (n . ac) - (n . ab) (e . ac) = (e x n) . (a x b + b x c + c x a). If up is
-// near a coordinate axis, most terms of e x n are 0, so that the sum has few terms. Rationals are needed only
+// near a coordinate axis, most terms of e x n are 0, so that the sum has few terms. Integers are needed only
 // if products underflow. The sign does not change if all coordinates are multiplied by the power of two that
 // keeps products in range.
 int GroundProjection::exact_turn(const Coordinates& a, const Coordinates& b, const Coordinates& c) const {
@@ -119,8 +126,8 @@ int GroundProjection::exact_turn(const Coordinates& a, const Coordinates& b, con
     }
   }
   if (exact && sum.is_lossless()) return sum.sign();
-  const Rational cross = exact_step(axes_[0], a, b) * exact_step(axes_[1], a, c) -
-                         exact_step(axes_[1], a, b) * exact_step(axes_[0], a, c);
+  const Integer cross = exact_step(axes_[0], a, b) * exact_step(axes_[1], a, c) -
+                        exact_step(axes_[1], a, b) * exact_step(axes_[0], a, c);
   return cross.sign();
 }
 
