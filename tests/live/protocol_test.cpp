@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pcl_bv/io/untrusted_text.h"
+
 namespace pcl_bv::live {
 using namespace detail;
 namespace {

@@ -13,6 +13,7 @@
 #include "client.h"
 #include "page.h"
 #include "pcl_bv/io/raw_cloud.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "pcl_bv/nodes/frame_pipeline.h"
 #include "pcl_bv/nodes/frame_sink.h"
 

@@ -22,6 +22,7 @@
 #include "stream/rig/transforms.h"
 #include "stream/rig/urdf.h"
 #include "stream/sources/recorded_clouds.h"
+#include "stream/sources/sources.h"
 
 namespace pcl_bv::detail {
 namespace {

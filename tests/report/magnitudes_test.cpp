@@ -206,7 +206,7 @@ TEST(Magnitudes, AnyUpDirectionGivesARotationInGltf) {
     std::memcpy(&bytes, glb.data() + 12, 4);
     const std::vector<double> matrix = nlohmann::json::parse(glb.substr(20, bytes))["nodes"].back()["matrix"];
     const Eigen::Matrix4d m = Eigen::Matrix4d::Map(matrix.data());
-    EXPECT_TRUE(m.topLeftCorner<3, 3>().isUnitary(1e-12)) << length << "\n" << m;
+    EXPECT_TRUE((m.topLeftCorner<3, 3>().isUnitary(1e-12))) << length << "\n" << m;
   }
 }
 

@@ -118,7 +118,7 @@ TEST_F(TilesetContents, OfOneTileEachHaveAVolumeInsideTheTilesVolume) {
   write_text(file("a.pnts"), cloud(kPoints));
   write_text(file("b.glb"), triangle(""));
   const std::string both = content("a.pnts", kUnit) + "," + content("b.glb", R"({"sphere":[0,0,0,1]})");
-  for (const std::string keys :
+  for (const std::string& keys :
        {R"("contents":[)" + both + "]",
         R"("extensions":{"3DTILES_multiple_contents":{"contents":[)" + both + "]}}",
         R"("extensions":{"3DTILES_multiple_contents":{"content":[)" + both + "]}}"}) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "growth.h"
+#include "pcl_bv/io/untrusted_text.h"
 #include "tile_files.h"
 
 namespace pcl_bv::detail {

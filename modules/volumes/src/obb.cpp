@@ -123,7 +123,7 @@ double Obb::volume() const {
   const FloatEnvironment environment;
   if (empty()) return 0;
   const Eigen::Vector3d h = descending(half_extents_);
-  return (2 * h.x()) * (2 * h.y()) * (2 * h.z());
+  return product_of(2 * h.x(), 2 * h.y(), 2 * h.z());
 }
 
 double Obb::surface_area() const {
