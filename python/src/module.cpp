@@ -27,6 +27,8 @@ void translate(std::exception_ptr error) {  // NOLINT(performance-unnecessary-va
     PyErr_SetString(PyExc_OSError, message_line(e.what()).c_str());
   } catch (const MessageError& e) {
     PyErr_SetString(PyExc_OSError, message_line(e.what()).c_str());
+  } catch (const ConfigError& e) {
+    PyErr_SetString(PyExc_ValueError, message_line(e.what()).c_str());
   } catch (const std::invalid_argument& e) {
     PyErr_SetString(PyExc_ValueError, message_line(e.what()).c_str());
   }

@@ -112,6 +112,8 @@ void take_deskew(py::handle state, ResultObject& self) {
   if (moved.view.count != self.points.view.count || (!packed && moved.view.count > 0) ||
       moved.view.scalar != self.points.view.scalar)
     throw py::value_error("the moved points are not those of the frame");
+  static constexpr TimeUnit kSeconds{"s", 1};  // says that points were moved within their sweep
+  self.result.deskew.times.unit = &kSeconds;
   self.result.deskew.outcome = how == "poses" ? DeskewOutcome::by_poses : DeskewOutcome::by_tracks;
   self.own_deskewed_points(moved.view);
 }

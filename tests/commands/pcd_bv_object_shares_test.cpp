@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <fstream>
 #include <set>
 
@@ -80,6 +81,7 @@ TEST_F(PcdBvObjectShares, OfIndependentInputsAreOneCloudInTheOrderOfTheirNames) 
   const std::size_t third = points.size() / 3;
   std::vector<std::string> together = {"--together", "--format", "jsonl"};
   together.insert(together.end(), options.begin(), options.end());
+  std::filesystem::create_directory(at("parts"));
   for (const std::size_t i : {0UL, 1UL, 2UL}) {
     const std::string tile = i == 2 ? "t10" : "t" + std::to_string(i + 1);
     together.push_back(binary(

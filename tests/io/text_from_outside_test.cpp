@@ -110,7 +110,7 @@ TEST(TextFromOutside, MessagesKeepBothEndsOfLongNamesAndOfTheLine) {
   EXPECT_EQ(message_line("a\nb\x1b[2J"), "a?b?[2J");
   const std::string name = "begin" + std::string(200'000, 'x') + "end.glb",
                     line = message_line("dir/t.json: " + name + ": no such file");
-  EXPECT_EQ(line.size(), 12 + kMaxNameBytes + 14);
+  EXPECT_LE(line.size(), 12 + kMaxNameBytes + 14);
   EXPECT_THAT(line, testing::StartsWith("dir/t.json: beginxxx"));
   EXPECT_THAT(line, testing::EndsWith("xxxend.glb: no such file"));
   std::string words;

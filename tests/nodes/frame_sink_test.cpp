@@ -299,6 +299,7 @@ TEST(SinkGroup, MeasuresEachSink) {
 TEST_F(FrameSinks, DoNotDependOnTheLocale) {
   const auto written = [&](const std::string& folder) {
     SinkGroup group([](const std::string&) {});
+    std::filesystem::create_directory(path_ / folder);
     for (const std::string sink :
          {"jsonl:a.jsonl", "csv:a.csv", "labels:labels", "vtp:vtp", "mcap:a.mcap", "rosbag2:bag"}) {
       const std::size_t name = sink.find(':') + 1;

@@ -544,9 +544,9 @@ DeskewedRig deskewed_rig(RigTimes front_times, RigTimes rear_times, std::int64_t
 TEST(Rig, NamesEachSensorWhosePointsHaveNoTimesOfASweep) {
   const std::string reason =
       ": points cannot be moved to the stamp: they have no times, or times that are not those of a sweep";
-  const RigTimes none{}, zero{true, 0, 0}, constant{true, 50'000'000, 0}, short_sweep{true, 0, 10},
+  const RigTimes none{}, zero{true, 0, 0}, constant{true, 50'000'000, 0}, long_sweep{true, 0, 40'000'000},
       sweep{true, 0, 1'000'000};
-  for (const RigTimes& unusable : {none, zero, constant, short_sweep}) {
+  for (const RigTimes& unusable : {none, zero, constant, long_sweep}) {
     SCOPED_TRACE(testing::Message() << unusable.known << unusable.constant << unusable.step);
     const DeskewedRig both = deskewed_rig(unusable, unusable, 0, Deskew::on);
     EXPECT_THAT(both.warnings, ElementsAre("/front, /rear" + reason));

@@ -202,7 +202,9 @@ void create_folder(const fs::path& folder) {
   const fs::path without_slash = folder.has_filename() ? folder : folder.parent_path();
   std::error_code failure;
   fs::create_directory(without_slash, failure);
-  if (!failure && !fs::is_directory(folder, failure))
+  std::error_code unknown;
+  const bool exists = !failure || failure == std::errc::file_exists;
+  if (exists && !fs::is_directory(folder, unknown))
     failure = std::make_error_code(std::errc::not_a_directory);
   if (failure) throw IoError("cannot create this folder: " + system_reason(failure.value()));
 }

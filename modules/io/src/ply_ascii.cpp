@@ -71,6 +71,7 @@ class VertexRow {
 
 void skip(TextBody& body, const PlyElement& element) {
   if (element.properties.empty()) return;
+  if (element.count == 0) return;
   const std::size_t found = skip_text_rows(body, element.count);
   if (found == element.count) return;
   throw IoError("truncated: row " + std::to_string(found) + " of element " + in_quotes(element.name) +

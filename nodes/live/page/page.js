@@ -258,9 +258,8 @@ export class Page {
     this.changed("colours");
   }
 
-  // Ends the selection if the picked track has certainly ended: after 4 * track.death frames without it, since the
-  // tracker counts a frame in which an object may be hidden as a quarter. Also if frames are numbered anew, because
-  // the ids are then those of other objects.
+  // Ends the selection after 4 * track.death frames without the track, since frames in which it may be occluded
+  // count a quarter. Also if frames are numbered anew: the ids are then of other objects.
   dropEndedPick({ clusters, seq }) {
     const key = this.view.picked;
     if (key === null) return;
