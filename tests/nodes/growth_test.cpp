@@ -262,7 +262,7 @@ TEST_F(Growth, OfFieldsIsThatOfTheHeader) {
       },
       [&] { EXPECT_EQ(read_cloud(path_ / "a.pcd").size(), 1U); });
   test::expect_linear(
-      "elements of .ply", 4000, 120,
+      "elements of .ply", 5000, 120,
       [&](std::size_t n) {
         return put("a.ply", "ply\nformat ascii 1.0\n" +
                                 numbered(n,

@@ -253,7 +253,7 @@ export class Page {
 
   pick(key) {
     this.view.picked = key === this.view.picked ? null : key;
-    this.pickedSeq = this.frame?.report.seq ?? 0; // the last frame with the picked object
+    this.seen = this.frame?.report.seq ?? 0; // the last frame with the picked object
     if (this.view.picked === null) this.follow(false);
     this.changed("colours");
   }
@@ -263,11 +263,11 @@ export class Page {
   dropEndedPick({ clusters, seq }) {
     const key = this.view.picked;
     if (key === null) return;
-    if (clusters.some((cluster) => keyOf(cluster) === key)) {
-      this.pickedSeq = seq;
+    if (clusters.some((c) => keyOf(c) === key)) {
+      this.seen = seq;
       return;
     }
-    const missed = seq - this.pickedSeq;
+    const missed = seq - this.seen;
     if (missed >= 0 && missed <= 4 * (this.settings?.numberOf("track.death") ?? DEATH)) return;
     this.pick(key);
     if (key.startsWith("track")) notice(`${key} has ended.`);
