@@ -27,9 +27,6 @@ constexpr std::size_t kMostPairs = 40;
 // The 256 sweeps take 1.4 times as long.
 constexpr int kMostSweeps = 256;
 constexpr double kSettled = 1e-7;
-// Sweeps also end if they increase det X by less than this fraction. Between points that are nearly the same,
-// rounding errors move all weight to and fro for nothing. A useful sweep that moves kSettled gains more.
-constexpr double kNoGain = 1e-15;
 
 // Finds the weights that maximise det X, which the top of the file defines. Each step moves weight from one
 // point to another.
@@ -56,12 +53,11 @@ class Ascent {
     if (support.size() > kMostPairs) return true;
     for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
       double moved = 0;
-      gained_ = 0;
       for (std::size_t a = 0; a < support.size(); ++a) {
         for (std::size_t b = 0; b < a; ++b)
           moved = std::max(moved, std::abs(exchange(support[a], support[b])));
       }
-      if (moved < kSettled || gained_ < kNoGain) break;
+      if (moved < kSettled) break;
     }
     return true;
   }
@@ -186,7 +182,6 @@ class Ascent {
     double delta = curve > 0 ? (at_i - at_k) / curve : at_i > at_k ? weights_[k] : -weights_[i];
     delta = std::clamp(delta, -weights_[i], weights_[k]);
     if (delta == 0) return 0;
-    gained_ += delta * ((at_i - at_k) - delta * curve / 2);
     weights_[i] += delta;
     weights_[k] -= delta;
     add(z, delta);
@@ -235,7 +230,6 @@ class Ascent {
   const std::vector<Eigen::Vector3d>& points_;
   std::size_t size_;
   std::vector<double> weights_, kappa_;
-  double gained_ = 0;  // sum of the relative increases of det X
   Square inverse_{};
 };
 
