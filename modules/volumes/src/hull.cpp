@@ -143,7 +143,7 @@ double Hull::volume() const {
   const FloatEnvironment environment;
   if (rank_ < 3) return 0;
   const auto [body, unit] = Body(*this);
-  return measure(body.vertices, body.faces, 3).size * unit * unit * unit;
+  return std::max(0.0, measure(body.vertices, body.faces, 3).size) * unit * unit * unit;
 }
 
 double Hull::surface_area() const {
