@@ -198,6 +198,20 @@ TEST(Ellipsoid, OfTwoHalfSpheresApartIsWithinItsTolerance) {
   }
 }
 
+// Rounding errors moved all weight between the second and the fourth point until only one point had weight.
+TEST(Ellipsoid, OfPointsOfWhichTwoAreNearlyTheSameHoldsThemAll) {
+  const TestCloud<double> cloud{
+      "nearly the same",
+      {-2.0078112455608884e+66, -2.0899708802448861e+66, 1.7197589334108743e+66,   //
+       -1.4547860466473922e+66, -2.9375839536478531e+66, -7.8169888120014725e+65,  //
+       -9.3323945785267641e+65, -1.2667158010706443e+66, 2.9801594354570456e+66,   //
+       -1.4547860466473922e+66, -2.9375839536478527e+66, -7.8169888120014716e+65,  //
+       -2.4065231727163372e+66, 2.2063778439805914e+66,  8.3510364380100057e+65}};
+  const Fitted<Ellipsoid> ellipsoid = fit_ellipsoid(cloud.view());
+  EXPECT_EQ(verify(*ellipsoid, cloud.view()).outside, 0U);
+  EXPECT_GT(ellipsoid->radii().minCoeff(), 1e65);
+}
+
 TEST(Ellipsoid, OfACubeIsItsSphere) {
   const TestCloud<float> cloud{
       "cube", {1, 1, 1, -1, 1, 1, 1, -1, 1, -1, -1, 1, 1, 1, -1, -1, 1, -1, 1, -1, -1, -1, -1, -1}};

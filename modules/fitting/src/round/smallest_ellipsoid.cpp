@@ -27,6 +27,9 @@ constexpr std::size_t kMostPairs = 40;
 // The 256 sweeps take 1.4 times as long.
 constexpr int kMostSweeps = 256;
 constexpr double kSettled = 1e-7;
+// If the second derivative of det X is below this fraction, it is a rounding error: the two points are nearer
+// to each other than 1e-7 of the cloud, so that moving weight between them gains nothing.
+constexpr double kSamePoint = 0x1p-46;
 
 // Finds the weights that maximise det X, which the top of the file defines. Each step moves weight from one
 // point to another.
@@ -179,8 +182,8 @@ class Ascent {
     const Lifted w = times(z);
     const double at_i = form(w, z), between = form(w, y), at_k = form(times(y), y);
     const double curve = 2 * (at_i * at_k - between * between);
-    double delta = curve > 0 ? (at_i - at_k) / curve : at_i > at_k ? weights_[k] : -weights_[i];
-    delta = std::clamp(delta, -weights_[i], weights_[k]);
+    if (!(curve > kSamePoint * at_i * at_k)) return 0;
+    const double delta = std::clamp((at_i - at_k) / curve, -weights_[i], weights_[k]);
     if (delta == 0) return 0;
     weights_[i] += delta;
     weights_[k] -= delta;
