@@ -165,5 +165,17 @@ TEST(ClustersByRange, AGrowthThatIsNoneOrGoesWithDbscanIsRefused) {
   EXPECT_EQ(message(0, 5), "");
 }
 
+TEST(ClustersByRange, AnOriginThatIsNoPositionIsRefused) {
+  const Cloud<float> cloud{{0, 0, 0}, {1, 0, 0}};
+  for (const double bad : {double{NAN}, double{INFINITY}, 1.1e100}) {
+    ClusterOptions settings{0.5F};
+    settings.tolerance_per_metre = 0.01F;
+    settings.range_origin.y() = bad;
+    Clusters clusters;
+    EXPECT_THROW(EuclideanClusterer().extract(view_of(cloud), settings, clusters), std::invalid_argument)
+        << bad;
+  }
+}
+
 }  // namespace
 }  // namespace pcl_bv::detail

@@ -136,6 +136,14 @@ TEST(GroundPlane, RefusesAnUpThatIsNone) {
   }
 }
 
+TEST(GroundPlane, RefusesASensorThatIsNoPosition) {
+  GroundPlaneOptions settings;
+  for (const double bad : {double{NAN}, double{INFINITY}, -1.1e100}) {
+    settings.sensor = {0, bad, 0};
+    EXPECT_THROW(split(Cloud<float>{{0, 0, 0}}, settings), std::invalid_argument) << bad;
+  }
+}
+
 TEST(GroundPlane, EachSeedFindsTheGroundAndGivesTheSameBitsAgain) {
   Cloud<float> cloud;
   add_plane<float>(cloud, 20'000, 20, 0, 0, 0, 0.05F, 0.05F);

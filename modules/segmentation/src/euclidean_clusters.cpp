@@ -53,6 +53,9 @@ void detail::check(const ClusterOptions& options) {
   } else if (options.tolerance_per_metre > 0 && options.min_points > 1) {
     message << "cluster min_points is " << options.min_points
             << ", must be 1 if tolerance_per_metre is above 0";
+  } else if (!(options.range_origin.cwiseAbs().array() <= kMaxCoordinate).all()) {
+    message << "cluster range_origin is " << options.range_origin.transpose()
+            << ", must be from -1e100 to 1e100 along each axis";
   } else {
     return;
   }

@@ -4,12 +4,15 @@
 // Checks of ground options and point indices.
 #pragma once
 
+#include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "pcl_bv/numeric/coordinates.h"
 #include "pcl_bv/points/point_view.h"
 
 namespace pcl_bv::detail {
@@ -31,6 +34,13 @@ inline void check_ground(const char* who, double distance, double max_slope_degr
   require(max_slope_degrees >= 0 && max_slope_degrees <= 89, who, "max_slope_degrees", max_slope_degrees,
           "0 to 89");
   require(height >= 0 && height <= largest, who, "sensor_height", height, "finite and at least 0");
+}
+
+/// Checks the position of a sensor.
+inline void check_sensor(const char* who, const Eigen::Vector3d& sensor) {
+  for (const double coordinate : sensor)
+    require(std::abs(coordinate) <= kMaxCoordinate, who, "a coordinate of sensor", coordinate,
+            "from -1e100 to 1e100");
 }
 
 /// Throws std::length_error if a point index exceeds 2^31 - 1. Views with an index list need no check,

@@ -14,6 +14,7 @@ namespace {
 void check(const GroundPlaneOptions& options) {
   constexpr const char* who = "ground plane";
   check_ground(who, options.distance, options.max_slope_degrees, options.sensor_height);
+  check_sensor(who, options.sensor);
   require(options.iterations >= 1 && options.iterations <= 1'000'000, who, "iterations", options.iterations,
           "1 to 1000000");
 }

@@ -34,10 +34,7 @@ constexpr double foot_share = 0.2;
 void check(const GroundZonesOptions& options) {
   constexpr const char* who = "ground zones";
   check_ground(who, options.distance, options.max_slope_degrees, options.sensor_height);
-  const Eigen::Vector3d sensor = options.sensor.value_or(Eigen::Vector3d::Zero());
-  for (int axis = 0; axis < 3; ++axis)
-    require(std::abs(sensor[axis]) <= kMaxCoordinate, who, "a coordinate of sensor", sensor[axis],
-            "from -1e100 to 1e100");
+  check_sensor(who, options.sensor.value_or(Eigen::Vector3d::Zero()));
 }
 
 }  // namespace

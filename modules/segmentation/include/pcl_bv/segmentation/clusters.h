@@ -72,7 +72,8 @@ struct ClusterOptions {
   float tolerance_per_metre = 0;
   /// Treatment of clusters with more than max_size points.
   Oversized oversized = Oversized::drop;
-  /// Position from which tolerance_per_metre measures distances.
+  /// Position from which tolerance_per_metre measures distances, in the frame of the points. Each coordinate
+  /// is from -1e100 to 1e100.
   Eigen::Vector3d range_origin = Eigen::Vector3d::Zero();
 };
 

@@ -33,7 +33,8 @@ struct GroundPlaneOptions {
   std::optional<double> sensor_height;
   std::uint32_t seed = 1;      ///< Seed of the random search. Other seeds may move the plane by millimetres.
   unsigned iterations = 1000;  ///< Number of planes tried, 1 to 1000000.
-  Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< Position of the sensor; only for sensor_height.
+  /// Position of the sensor, only for sensor_height; each coordinate is from -1e100 to 1e100.
+  Eigen::Vector3d sensor = Eigen::Vector3d::Zero();
 };
 
 /// Largest accepted error of the option sensor_height, metres. The value is large enough for pitching
