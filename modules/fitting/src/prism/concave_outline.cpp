@@ -175,22 +175,9 @@ class OutlineRefiner {
 
 }  // namespace
 
-// Squares of tiny lengths would underflow, so tiny coordinates are multiplied by a power of two.
 std::vector<Eigen::Vector2d> concave_outline(const std::vector<Eigen::Vector2d>& hull,
                                              const std::vector<Eigen::Vector2d>& points, double length) {
-  constexpr double kTiny = 0x1p-400;
-  double largest = 0;
-  for (const Eigen::Vector2d& p : hull)
-    largest = std::max(largest, p.cwiseAbs().maxCoeff());
-  if (largest == 0 || largest > kTiny) return OutlineRefiner(hull, points, length).run();
-  const int exponent = -std::ilogb(largest);
-  const auto scaled = [](std::vector<Eigen::Vector2d> corners, int by) {
-    for (Eigen::Vector2d& corner : corners)
-      corner = {std::ldexp(corner.x(), by), std::ldexp(corner.y(), by)};
-    return corners;
-  };
-  OutlineRefiner refiner(scaled(hull, exponent), scaled(points, exponent), std::ldexp(length, exponent));
-  return scaled(refiner.run(), -exponent);
+  return OutlineRefiner(hull, points, length).run();
 }
 
 }  // namespace pcl_bv::detail

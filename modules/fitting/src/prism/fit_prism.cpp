@@ -117,9 +117,11 @@ std::vector<Eigen::Vector2d> projected_points(const PointView& points, const Sup
 }
 
 // Returns a power of two by which coordinates are multiplied, so that squares of lengths do not underflow.
-double scale_of(const Supports& supports) {
-  const double extent = widest_side(supports);
-  return extent < 0x1p-300 ? unit_scale(extent) : 1;
+double scale_of(const ProjectedPoints& corners) {
+  double largest = 0;
+  for (const ProjectedPoint& corner : corners)
+    largest = std::max(largest, corner.at.cwiseAbs().maxCoeff());
+  return largest < 0x1p-300 ? unit_scale(largest) : 1;
 }
 
 // Returns whether an edge of the convex hull is longer than a length. Both are multiplied by `scale`, which
@@ -146,7 +148,7 @@ std::optional<std::vector<Eigen::Vector2d>> concave_outline_of(const PointView& 
                                                                const ProjectedPoints& corners,
                                                                const GroundProjection& projection,
                                                                double length, const FitExecution& execution) {
-  const double scale = scale_of(supports);
+  const double scale = scale_of(corners);
   if (!(length < kInfinity) || !has_longer_edge(corners, length, scale)) return std::nullopt;
   std::vector<Eigen::Vector2d> all = projected_points(points, supports, projection, execution);
   std::vector<Eigen::Vector2d> hull;
