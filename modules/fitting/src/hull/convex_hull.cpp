@@ -162,7 +162,7 @@ ConvexHull hull_of(const std::vector<Coordinates>& points) {
 }  // namespace
 
 // Enlarging an axis does not change which points are extreme. With tiny coordinates, products would
-// underflow, and every point would be compared in integers, which takes 30 times as long.
+// underflow, and every point would be compared in integers.
 ConvexHull convex_hull(const std::vector<Coordinates>& points) {
   const int x = enlargement(points, 0), y = enlargement(points, 1), z = enlargement(points, 2);
   if (x == 0 && y == 0 && z == 0) return hull_of(points);

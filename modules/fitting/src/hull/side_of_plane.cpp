@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
+#include "exact_integer.h"
 #include "hull/convex_hull.h"
 #include "pcl_bv/numeric/exact_difference.h"
 #include "pcl_bv/numeric/expansion.h"
@@ -50,11 +50,7 @@ struct Bits {
 template <typename Integer>
 int by_integers(const Coordinates& a, const Coordinates& b, const Coordinates& c, const Coordinates& p,
                 const Bits& bits) {
-  const auto integer = [&](double x) {
-    if (x == 0) return Integer(0);
-    const int exponent = std::ilogb(x) - 52;
-    return Integer(Integer(static_cast<std::int64_t>(std::ldexp(x, -exponent))) << (exponent - bits.lowest));
-  };
+  const auto integer = [&](double x) { return exact_integer<Integer>(x, bits.lowest); };
   Integer u[3], v[3], w[3];
   for (std::size_t k = 0; k < 3; ++k) {
     const Integer from = integer(a[k]);

@@ -11,6 +11,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 
+#include "exact_integer.h"
 #include "pcl_bv/numeric/constants.h"
 #include "pcl_bv/numeric/coordinate_axis.h"
 #include "pcl_bv/numeric/expansion.h"
@@ -23,15 +24,9 @@ namespace {
 
 using Integer = boost::multiprecision::cpp_int;
 
-// Returns x * 2^1126, which is an integer for every double.
-Integer integer_of(double x) {
-  if (x == 0) return 0;
-  const int exponent = std::ilogb(x) - 52;
-  return Integer(static_cast<std::int64_t>(std::ldexp(x, -exponent))) << (exponent + 1126);
-}
-
-// Returns axis . (b - a), multiplied by 2^2252. Rationals would be reduced after each operation.
+// Returns axis . (b - a), multiplied by 2^2252.
 Integer exact_step(const Eigen::Vector3d& axis, const Coordinates& a, const Coordinates& b) {
+  const auto integer_of = [](double x) { return exact_integer<Integer>(x, -1126); };
   Integer sum = 0;
   for (std::size_t k = 0; k < 3; ++k)
     sum += integer_of(axis[static_cast<int>(k)]) * (integer_of(b[k]) - integer_of(a[k]));
