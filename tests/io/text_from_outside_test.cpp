@@ -147,6 +147,10 @@ TEST(TextFromOutside, ListsOfNamesEndWithANumber) {
 TEST(TextFromOutside, AFailedAllocationHasAReason) {
   EXPECT_EQ(reason_of(std::bad_alloc()), "not enough memory");
   EXPECT_EQ(reason_of(std::length_error("vector::_M_default_append")), "not enough memory");
+  EXPECT_EQ(reason_of(std::length_error("cannot create std::vector larger than max_size()")),
+            "not enough memory");
+  EXPECT_EQ(reason_of(std::length_error("too many clusters in a share: use more shares")),
+            "too many clusters in a share: use more shares");
   EXPECT_EQ(reason_of(IoError("is cut")), "is cut");
 }
 

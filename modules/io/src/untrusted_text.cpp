@@ -119,9 +119,12 @@ std::string message_line(std::string_view text) {
 }
 
 std::string reason_of(const std::exception& error) {
-  const bool no_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
-                         dynamic_cast<const std::length_error*>(&error) != nullptr;
-  return no_memory ? "not enough memory" : error.what();
+  const std::string what = error.what();
+  const bool too_long =
+      dynamic_cast<const std::length_error*>(&error) != nullptr &&
+      what.find("::") != std::string::npos;  // "vector::_M_default_append"; ours are sentences
+  const bool no_memory = too_long || dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+  return no_memory ? "not enough memory" : what;
 }
 
 std::string name_list(const std::vector<std::string>& names) {

@@ -43,8 +43,6 @@ void write_object(const std::filesystem::path& folder, std::size_t id, const Poi
         write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
       }
     });
-  } catch (const std::bad_alloc&) {
-    throw IoError(path.string() + ": not enough memory");
   } catch (const std::exception& error) {
     throw IoError(path.string() + ": " + reason_of(error));
   }

@@ -10,8 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <limits>
-#include <new>
+#include <type_traits>
 #include <utility>
 
 #include "commands/shared/messages.h"
@@ -55,14 +54,18 @@ void check(const PointView& cloud, const FrameResult& result, const Options& opt
   }
 }
 
-/// Runs `write`, which creates the file `path`. Before, creates its folder if an option names the folder.
-/// Reports errors.
+/// Runs `write`, which creates `path`, a file or the folder of files. Before, creates the folder of `path` if
+/// an option names that folder. Reports errors. Returns what `write` returns, if anything.
 template <typename Write>
 Status write_file(const Job& job, const std::filesystem::path& path, const Write& write) {
   try {
     if (job.folders.count(path.parent_path()) > 0) create_folder(path.parent_path());
-    write();
-    return Status::done;
+    if constexpr (std::is_same_v<decltype(write()), Status>) {
+      return write();
+    } else {
+      write();
+      return Status::done;
+    }
   } catch (const std::exception& error) {
     report_problem(path.string() + ": " + reason_of(error));
   }
@@ -83,14 +86,13 @@ Status write_files(const Job& job, const Options& options, const Frame& frame, c
   if (job.mesh)
     status = write_mesh(job, outcome.entries(), {loaded.xyz(), label, 200000, options.pipeline.ground.up});
   if (job.objects) {
-    Status objects = Status::failed;
     const auto write = [&](std::size_t id) {
       write_object(*job.objects, id, result.points_of(id, loaded.xyz()));
     };
-    static_cast<void>(write_file(job, *job.objects, [&] {
-      objects = write_objects(*job.objects, result.clusters.size(), execution_of(options).parallel, write);
-    }));
-    status = worse(status, objects);
+    status = worse(status, write_file(job, *job.objects, [&] {
+                     return write_objects(*job.objects, result.clusters.size(),
+                                          execution_of(options).parallel, write);
+                   }));
   }
   if (job.image) {
     status = worse(status, write_file(job, *job.image, [&] {
@@ -334,8 +336,6 @@ Outcome detail::process(const Job& job, const Options& options, FramePipeline& p
     return outcome;
   } catch (const UsageError&) {
     throw;
-  } catch (const std::bad_alloc&) {
-    outcome.report.error = "not enough memory";
   } catch (const std::exception& error) {
     outcome.report.error = reason_of(error);
   }

@@ -65,8 +65,6 @@ TileHeader describe_tile(const Job& job) {
       header = {points.count, points.scalar};
       header.note = cloud.note;
     }
-  } catch (const std::bad_alloc&) {
-    header.error = "not enough memory";
   } catch (const std::exception& error) {
     header.error = reason_of(error);
   }

@@ -125,8 +125,6 @@ int main(int argc, char** argv) {
     try {
       const int status = run(ranks, argc, argv, interrupted);
       return ranks.first() ? status : 0;
-    } catch (const std::bad_alloc&) {
-      reason = "not enough memory";
     } catch (const std::exception& error) {
       reason = reason_of(error);
     }

@@ -54,7 +54,8 @@ inline constexpr std::size_t kMaxNameBytes = 120;     ///< Of a name in it: byte
 /// their middle, which becomes "...". Characters of UTF-8 stay whole.
 std::string message_line(std::string_view text);
 
-/// Returns what() of an error, or "not enough memory" for a failed allocation, which has only a name in C++.
+/// Returns what() of an error, or "not enough memory" for a failed allocation, also one of more than a standard
+/// container can hold: their what() is only a name in C++.
 std::string reason_of(const std::exception& error);
 
 /// Returns the names as "a, b, c". Of more than 8 names, returns the first 8 and the number of the others.
