@@ -154,11 +154,13 @@ Status make_object_file(const Job& job, const Options& options) {
 }  // namespace
 
 Status detail::make_partial_file(const Job& job, const Options& options) {
+  if (job.partials.empty()) {  // with --merge, points were filtered before
+    const std::string moved = origin_warning(options.origin.at, false, options);
+    if (!moved.empty()) report_problem(moved);
+  }
   if (options.clusters()) return make_object_file(job, options);
   if (options.writes_ground_part()) return make_ground_part(job, options);
   const Interruption interruption([] {});
-  const std::string moved = origin_warning(options.origin.at, false, options);
-  if (!moved.empty()) report_problem(moved);
   if (!job.partials.empty()) {
     const std::optional<MergedClouds> merged = merge_files(job.partials);
     return merged ? write_or_report(*options.partial, *merged) : Status::failed;
