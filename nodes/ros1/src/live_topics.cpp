@@ -109,9 +109,11 @@ class LiveTopics::Inbox {
     const auto known = std::find(types_.begin(), types_.end(), type);
     const std::lock_guard lock(mutex_);
     if (known == types_.end()) {
-      if (others_.size() < 20 && others_.insert(type).second)
-        warnings_.push_back(
-            message_line("published as " + type + ": messages ignored, expected " + types_.front()));
+      constexpr std::size_t most = 20;
+      if (others_.size() < most && others_.insert(type).second)
+        warnings_.push_back(message_line("published as " + type + ": messages ignored, expected " +
+                                         types_.front() +
+                                         (others_.size() < most ? "" : "; further types are not named")));
       return;
     }
     ReceivedMessage message;
