@@ -12,7 +12,6 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr std::size_t kHesaiCircle = 36'000;           // hundredths of a degree
 constexpr std::int64_t kHesaiSecond = 1'000'000'000;   // nanoseconds
 constexpr std::int64_t kMaxHesaiPause = 300'000'000;   // nanoseconds; no prediction over longer pauses
 constexpr std::int64_t kMaxHesaiTime = 4'000'000'000;  // nanoseconds, limit of SensorPoint::time_ns
@@ -31,19 +30,6 @@ std::uint32_t return_bits(const std::byte* at) {
 // The sensor's time within its second, microseconds.
 std::uint32_t microseconds(const Payload& packet, const HesaiModel& model) {
   return little_endian<std::uint32_t>(packet.data + model.tail_at(packet) + model.timestamp) % 1'000'000;
-}
-
-// Returns the signed difference of two azimuths in hundredths of a degree, from -18000 to 18000.
-double rotation_between(double from, double to) {
-  return std::remainder(to - from, static_cast<double>(kHesaiCircle));
-}
-
-// Returns the rotation between two firings of a packet in the direction of rotation, which is 1 or -1. With a
-// limited field of view, the azimuth leaps over the gap.
-double rotation_along(double from, double to, double direction) {
-  constexpr double jitter = 50;
-  const double difference = rotation_between(from, to);
-  return direction * difference < -jitter ? difference + direction * kHesaiCircle : difference;
 }
 
 // Returns the difference of two times of which only the position in their second is known.
@@ -78,12 +64,12 @@ void HesaiSensor::finish(SweepQueue& queue) {
 double HesaiSensor::rotation_in(const Payload& packet, double first) const {
   const HesaiModel& model = *geometry_->model;
   const std::size_t step = model.blocks_per_firing(packet);
-  if (step < model.blocks) return rotation_between(first, model.azimuth(packet, step));
+  if (step < model.blocks) return azimuth_difference(first, model.azimuth(packet, step));
   const auto passed_us = static_cast<std::int64_t>(microseconds(packet, model)) - std::int64_t{last_us_};
   const std::int64_t passed_ns = wrapped(1000 * passed_us);
   constexpr std::int64_t max_firings = 20;  // in which no sensor rotates by 180 degrees
   if (!started_ || passed_ns <= 0 || passed_ns > max_firings * model.firing_ns) return 0;
-  return rotation_between(azimuth_, first);
+  return azimuth_difference(azimuth_, first);
 }
 
 // Returns the azimuth of the first block plus whole revolutions. Updates the direction of rotation.
@@ -95,11 +81,11 @@ double HesaiSensor::unwrapped_azimuth(const Payload& packet) {
   if (!started_) return first;
   const double rpm = model.rpm(packet);
   const double per_ns =  // hundredths of a degree for each nanosecond
-      rpm > 0 ? forward_ * rpm * static_cast<double>(kHesaiCircle) / 60e9
+      rpm > 0 ? forward_ * rpm * static_cast<double>(kFullCircle) / 60e9
               : within / static_cast<double>(model.firing_ns);
   const auto passed_us = static_cast<std::int64_t>(microseconds(packet, model)) - std::int64_t{last_us_};
   const double expected = azimuth_ + per_ns * static_cast<double>(wrapped(1000 * passed_us));
-  return expected + rotation_between(expected, first);
+  return expected + azimuth_difference(expected, first);
 }
 
 bool HesaiSensor::is_too_late(std::int64_t revolution) const {

@@ -52,4 +52,19 @@ inline SineCosine sine_cosine_of(double angle) {
   return {s * cosine + c * rest, c * cosine - s * rest};
 }
 
+/// Returns the signed difference of two azimuths in hundredths of a degree, from -18000 to 18000.
+inline double azimuth_difference(double from, double to) {
+  return std::remainder(to - from, static_cast<double>(kFullCircle));
+}
+
+/// Returns the rotation between two firings in the direction of rotation, which is 1 or -1. It is less than a
+/// revolution, also where the azimuth leaps over the gap of a limited field of view. The azimuth may go back
+/// by half a degree, as that of a rotor that stands still does.
+inline double rotation_along(double from, double to, double direction) {
+  constexpr double jitter = 50;
+  const double difference = azimuth_difference(from, to);
+  return direction * difference < -jitter ? difference + direction * static_cast<double>(kFullCircle)
+                                          : difference;
+}
+
 }  // namespace pcl_bv::detail

@@ -44,9 +44,6 @@ constexpr VelodyneModel kVelodyneModels[] = {
      {1.4, -4.2, 1.4, -1.4, 1.4, -1.4, 4.2, -1.4, 1.4, -4.2, 1.4, -1.4, 4.2, -1.4, 4.2, -1.4,
       1.4, -4.2, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4, 1.4, -1.4, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4}}};
 
-// Azimuths may decrease by this between two firings, as those of a rotor that stands still.
-constexpr double kAzimuthJitter = 50;
-
 int azimuth_of(const Payload& packet, std::size_t block) {
   return little_endian<std::uint16_t>(velodyne_return(packet, block, 0) - 2);
 }
@@ -58,13 +55,6 @@ std::size_t blocks_per_firing(const Payload& packet) {
   for (std::size_t i = 0; i < kVelodyneBlocks; i += 2)
     if (azimuth_of(packet, i) != azimuth_of(packet, i + 1)) return 1;
   return 2;
-}
-
-// Returns the rotation between two azimuths in the direction of rotation, which is 1 or -1. It is less than a
-// revolution.
-double rotation_between(double from, double to, double direction) {
-  const double difference = azimuth_difference(from, to);
-  return direction * difference < -kAzimuthJitter ? difference + direction * kRevolution : difference;
 }
 
 }  // namespace
@@ -90,10 +80,6 @@ const VelodyneModel& velodyne_model(std::size_t index) {
   return kVelodyneModels[index];
 }
 
-double azimuth_difference(double from, double to) {
-  return std::remainder(to - from, kRevolution);
-}
-
 VelodyneFirings::VelodyneFirings(const Payload& packet)
     : blocks(blocks_per_firing(packet)), count(kVelodyneBlocks / blocks) {
   std::array<double, kVelodyneBlocks> differences{};
@@ -106,7 +92,7 @@ VelodyneFirings::VelodyneFirings(const Payload& packet)
   step = *middle;
   const double direction = step < 0 ? -1 : 1;
   for (std::size_t i = 0; i + 1 < count; ++i) {
-    const double turned = rotation_between(azimuth[i], azimuth[i + 1], direction);
+    const double turned = rotation_along(azimuth[i], azimuth[i + 1], direction);
     rotation[i + 1] = rotation[i] + turned;
     const bool is_leap = step != 0 && std::abs(turned) > max_step(step);
     advance[i] = !is_leap ? turned : i > 0 ? advance[i - 1] : step;

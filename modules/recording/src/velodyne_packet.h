@@ -61,9 +61,6 @@ inline const std::byte* velodyne_return(const Payload& packet, std::size_t block
   return packet.data + block_size * block + header + 3 * laser;
 }
 
-/// Returns the signed difference of two azimuths, from -18000 to 18000.
-double azimuth_difference(double from, double to);
-
 /// The rotation of the sensor within a packet. A firing is one block or, with dual returns, two blocks. A
 /// sensor with a limited field of view sends the first firing of the field right after the last one: the
 /// azimuth leaps over the gap.
