@@ -31,10 +31,10 @@ class Packets final : public FrameSource {
     frame.file = name_;
     frame.header.seq = seq_;
     frame.pass = loop_;
-    frame.header.stamp_ns = options_.own_stamps ? sweep->stamp_ns : stamp_by_rate(options_, seq_);
+    frame.header.stamp_ns = replay_stamp(options_, sweep->stamp_ns, seq_);
     frame.recorded_ns = sweep->stamp_ns;  // the time of the machine that captured the packets
     frame.header.frame_id = options_.frame_id.empty() ? std::string(sweep->frame_id) : options_.frame_id;
-    frame.pose = poses_.at(index_, options_.own_stamps ? sweep->stamp_ns : stamp_by_rate(options_, index_));
+    frame.pose = poses_.at(index_, replay_stamp(options_, sweep->stamp_ns, index_));
     ++index_;
     ++seq_;
     if (!sweep->points.empty()) {

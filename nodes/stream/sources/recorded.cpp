@@ -54,8 +54,7 @@ class Recorded final : public FrameSource {
     } catch (const std::exception& error) {
       throw FrameError(std::move(frame), reason_of(error));
     }
-    frame.pose =
-        poses_.at(index, options_.own_stamps ? frame.header.stamp_ns : stamp_by_rate(options_, index));
+    frame.pose = poses_.at(index, replay_stamp(options_, frame.header.stamp_ns, index));
     frame.decode_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     return Next::frame;
@@ -112,13 +111,12 @@ class Recorded final : public FrameSource {
 
   void read(const RecordedMessage& message, Frame& frame) {
     parse(message, frame);
-    if (!options_.own_stamps) {
-      frame.header.stamp_ns = stamp_by_rate(options_, frame.header.seq);
-    } else {
+    if (options_.own_stamps) {
       if (!std::exchange(checked_stamps_, true) && frame.header.stamp_ns == 0 && begins_without_stamps())
         stamps_.expect_none();
       frame.header.stamp_ns = stamps_.next(frame.header.stamp_ns, message.log_time_ns);
     }
+    frame.header.stamp_ns = replay_stamp(options_, frame.header.stamp_ns, frame.header.seq);
     if (!options_.frame_id.empty()) frame.header.frame_id = options_.frame_id;
   }
 

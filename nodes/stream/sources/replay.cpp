@@ -59,9 +59,9 @@ class Replay : public FrameSource {
     frame.header.seq = seq_;
     frame.pass = seq_ / length_;
     frame.header.frame_id = options_.frame_id;
-    frame.header.stamp_ns = options_.own_stamps ? times_.stamps[index] : stamp_by_rate(options_, seq_);
-    frame.pose =
-        poses_.at(index, options_.own_stamps ? times_.stamps[index] : stamp_by_rate(options_, index));
+    const std::int64_t own = options_.own_stamps ? times_.stamps[index] : 0;
+    frame.header.stamp_ns = replay_stamp(options_, own, seq_);
+    frame.pose = poses_.at(index, replay_stamp(options_, own, index));
     return frame;
   }
 

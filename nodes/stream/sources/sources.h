@@ -45,9 +45,10 @@ class Poses {
   std::string note_;
 };
 
-/// Returns the stamp of frame `number` at ReplayOptions::rate_hz.
-inline std::int64_t stamp_by_rate(const ReplayOptions& options, std::uint64_t number) {
-  return std::llround(1e9 * static_cast<double>(number) / options.rate_hz);
+/// Returns the stamp of a frame: `own_ns` with ReplayOptions::own_stamps, otherwise that of frame `number` at
+/// ReplayOptions::rate_hz. The number of a frame is counted over all passes, that of its pose in one pass.
+inline std::int64_t replay_stamp(const ReplayOptions& options, std::int64_t own_ns, std::uint64_t number) {
+  return options.own_stamps ? own_ns : std::llround(1e9 * static_cast<double>(number) / options.rate_hz);
 }
 
 /// Creates a source of `length` frames, repeated options.loops times. `files` are the files of the frames, or
