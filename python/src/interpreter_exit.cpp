@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright 2026 the pcl_bv authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Lets threads be in this module when the interpreter ends, such as daemon threads. The linker puts these
-// functions in the place of others, for the calls from this module (--wrap in CMakeLists.txt).
+// Lets threads be in this module when the interpreter ends, such as daemon threads. In this
+// module, the linker replaces the functions of the C++ library by these (--wrap in CMakeLists.txt).
 
 #include <unistd.h>
 #include <unwind.h>
