@@ -243,7 +243,8 @@ double FlushSearch::change(const NormalRange& range, const Measured& begin, cons
 }
 
 void FlushSearch::refine(const NormalRange& range, const Measured& begin, const Measured& end, int depth) {
-  // The limit is far above what hulls need. It only bounds the time if rounding prevents the proofs.
+  // Objects of streets need at most 238 divisions. The limit bounds the time if rounding prevents the proofs:
+  // the slowest of 6000 random clouds of any magnitudes takes 43 ms.
   constexpr int kDeepest = 40, kMostDivided = 100'000;
   constexpr double kLeast = 1e-3;
   if (is_proven(range, begin.widths) || is_proven(range, end.widths) || depth == kDeepest) return;

@@ -60,9 +60,10 @@ enum class ObbMethod : std::uint8_t {
   dito14,
   /// The axes of the smallest volume. If the hull has at most 128 vertices, the volume is the true minimum,
   /// to a relative 1e-10 (O'Rourke 1985). If one side is shorter than 1e-4 of another, this tolerance is
-  /// 1e-14 times the longest side divided by the shortest. For more vertices the volume is the smallest that
-  /// a search finds. It is occasionally some percent above the minimum, but never above the volumes of `pca`
-  /// and `dito14`.
+  /// 1e-14 times the longest side divided by the shortest. If rounding prevents the proof, as between sides
+  /// that differ by many orders of magnitude, a limit ends the search. For more vertices the volume is the
+  /// smallest that a search finds. It is occasionally some percent above the minimum, but never above the
+  /// volumes of `pca` and `dito14`.
   minimal,
   /// Axis 2 is up, and the area seen from above is the minimum.
   yaw,
