@@ -137,7 +137,10 @@ TEST(PartJoin, LeavesPeopleOtherClassesPartsThatWereCutAndLargeObjectsApart) {
   std::vector<ClusterPart> pieces = pieces_of({kFront, kBack});
   pieces[1].refinement = Refinement::cut;
   EXPECT_EQ(join.find(pieces, {object_at(kCar)}, {}, whole_of), 0U);
-  EXPECT_EQ(join.find(pieces_of({kFront, kBack}), {object_at(box_at(20, 0, 8, 1.8, 1.5))}, {}, whole_of), 0U);
+  EXPECT_EQ(join.find(pieces_of({kFront, kBack}), {object_at(box_at(20, 0, 6.1, 1.8, 1.5))}, {}, whole_of),
+            0U);
+  EXPECT_EQ(join.find(pieces_of({kFront, kBack}), {object_at(box_at(20, 0, 5.9, 1.8, 1.5))}, {}, whole_of),
+            1U);
 }
 
 TEST(KnownObject, FollowsFacesGrowsAtOnceAndShrinksSlowly) {

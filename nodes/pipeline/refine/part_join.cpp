@@ -10,7 +10,9 @@
 namespace pcl_bv::detail {
 namespace {
 
-constexpr double kMinVehicleLength = 1.5, kMaxVehicleLength = 7, kMaxVehicleHeight = 3.5;  // m, of a vehicle
+// Sizes of a vehicle, m. On a labelled drive, 164 of 172 joins up to 6 m were right, but 2 of 72 longer ones:
+// two parked cars that were one cluster once were joined for ever.
+constexpr double kMinVehicleLength = 1.5, kMaxVehicleLength = 6, kMaxVehicleHeight = 3.5;
 constexpr std::size_t kMinVehicleDetections = 3, kMaxVehicleMissed = 3;
 constexpr double kPartMargin = 0.3;  // m; a part is this far outside the known box at most
 

@@ -26,7 +26,7 @@ struct ClusterPart {
 
 /// Finds clusters that are parts of one object: they are inside the box of a tracked vehicle.
 ///
-/// A vehicle is a track with an id whose known box is 1.5 m to 7 m long and at most 3.5 m high. Clusters that
+/// A vehicle is a track with an id whose known box is 1.5 m to 6 m long and at most 3.5 m high. Clusters that
 /// were cut, and people with a track of their own, are parts of no vehicle.
 class PartJoin {
  public:
