@@ -38,6 +38,30 @@ TEST(MergedObjects, AreSaidWhileATrackWithoutABoxIsExpectedInsideAnothersBox) {
       EXPECT_FALSE(a.merged || a.separated) << i;
 }
 
+// A mirror that was a cluster of its own for a while must not hold the box of its van for ever.
+TEST(MergedObjects, AreNoneWhereTheTrackOfAPartIsExpectedInTheWhole) {
+  Tracker tracker;
+  for (int i = 0; i < 20; ++i) {
+    std::vector<Aabb> boxes{box(0, 0, 4, 2)};
+    if (i < 8) boxes.push_back(box(1.2, 0.6, 0.5, 0.5));
+    const auto found = update(tracker, i, boxes);
+    EXPECT_FALSE(found[0].merged) << i;
+    ASSERT_TRUE(i != 7 || found[1].track);
+  }
+}
+
+TEST(MergedObjects, AreSaidOfAnObjectWhoseTrackWasThatOfAPartBefore) {
+  Tracker tracker;
+  for (int i = 0; i <= 20; ++i) {
+    std::vector<Aabb> boxes{box(0, 0, 4, 2)};
+    if (i < 8) boxes.push_back(box(1.2, 0.6, 0.5, 0.5));
+    if (i >= 10 && i < 20) boxes.push_back(box(1.2, 0.6 + 0.15 * (i - 9), 0.5, 0.5));  // it walks away
+    if (i == 20) boxes = {box(0, 0.7, 4, 3.4)};
+    const auto found = update(tracker, i, boxes);
+    EXPECT_EQ(found[0].merged, i == 20) << i;
+  }
+}
+
 TEST(MergedObjects, AreNoneWhereATrackThatWasNeverBornIsExpected) {
   Tracker tracker;
   for (int i = 0; i < 6; ++i) {

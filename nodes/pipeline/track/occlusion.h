@@ -30,4 +30,13 @@ inline bool occludes(const Aabb& box, const Eigen::Vector3d& position,
   return enter > 0 && enter < leave;
 }
 
+/// Whether at least 80 % of the area of a box, seen from above, are inside another box.
+inline bool is_inside(const Aabb& box, const Aabb& other) {
+  constexpr double kShare = 0.8;
+  if (box.empty() || other.empty()) return false;
+  const Eigen::Vector3d common = box.max().cwiseMin(other.max()) - box.min().cwiseMax(other.min());
+  const Eigen::Vector3d size = box.max() - box.min();
+  return common.x() >= 0 && common.y() >= 0 && common.x() * common.y() >= kShare * size.x() * size.y();
+}
+
 }  // namespace pcl_bv::detail

@@ -113,6 +113,7 @@ void Track::correct(const Aabb& seen_box, const Pose& sensor, double seconds, co
   measure(difference_to(seen_box), sensor, viewpoints, seen_box, passed);
   resize(seen_box, sensor);
   missed = occluded = 0;
+  inside_of.reset();
   ++detections;
   classify_motion(high, sensor, passed);
   seconds_unseen = 0;

@@ -49,6 +49,10 @@ struct Track {
   std::size_t missed = 0, occluded = 0;  // missed and occluded frames since the last detection
   double yaw = 0, yaw_variance = 1;
   bool active = false, moving = false;
+  // Slot of the track in whose box this one disappeared, and whether that box was as large before: then this
+  // track was of a part of that object. Until the next detection.
+  std::optional<std::size_t> inside_of;
+  bool is_part = false;
   std::optional<std::uint32_t> id;
   // Slot of the track whose expected box contained the centre of this track's first box.
   std::optional<std::size_t> split_from;
@@ -63,6 +67,8 @@ struct Track {
   /// positions, an error of the estimated sensor velocity would pass into their velocities and stay there.
   Aabb static_box(const Pose& sensor) const;
   Aabb expected_box() const { return {expected_position + low, expected_position + high}; }
+  /// The expected box of all parts of the object that have been seen.
+  Aabb whole_box() const { return {expected_position + full_low, expected_position + full_high}; }
   BoxDifference difference_to(const Aabb& box) const;
   /// Whether the stored extents have the size of a vehicle, of which only a part may be in view.
   bool has_vehicle_size() const;

@@ -12,6 +12,7 @@
 #include "assignment.h"
 #include "box_grid.h"
 #include "ego_motion.h"
+#include "occlusion.h"
 #include "pipeline/reserve_ahead.h"
 #include "track.h"
 
@@ -66,6 +67,7 @@ struct Tracker::State {
   // For each measured box: expected_box() of its assigned track before correct(); an empty box if it has no
   // track.
   std::vector<Aabb> predicted;
+  std::vector<Aabb> wholes;  // whole_box() of the same tracks at the same time
   std::vector<AssignmentPair> pairs;
   BoxGrid grid;
   SparseAssignment assignment;
@@ -147,12 +149,14 @@ void Tracker::State::assign_boxes(const std::vector<Aabb>& boxes, const Viewpoin
   track_taken.assign(tracks.size(), 0);
   box_taken.assign(boxes.size(), 0);
   predicted.assign(boxes.size(), Aabb());
+  wholes.assign(boxes.size(), Aabb());
   assignment.solve(tracks.size(), boxes.size(), pairs, kGateCost);
   for (std::size_t t = 0; t < tracks.size(); ++t) {
     const std::size_t b = assignment.columns()[t];
     if (b == SparseAssignment::none) continue;
     track_taken[t] = box_taken[b] = 1;
     predicted[b] = tracks[t].expected_box();
+    wholes[b] = tracks[t].whole_box();
     tracks[t].correct(boxes[b], sensor, elapsed, viewpoints);
     assignments[b].slot = t;
   }
@@ -162,7 +166,8 @@ void Tracker::State::assign_boxes(const std::vector<Aabb>& boxes, const Viewpoin
 // object is probably part of that box. A track with an id is also occluded if boxes hide its centre from
 // every sensor. An occluded track is deleted later than others, so that it continues when its object is seen
 // again. But if a split is not yet confirmed and the parts are one box again, the younger track was a part of
-// the older one and is deleted. Otherwise both would continue and take turns, with the same object.
+// the older one and is deleted. Otherwise both would continue and take turns, with the same object. A track
+// that disappears in a box that was as large before was a part of that object, too: the box is not merged.
 void Tracker::State::count_misses(const std::vector<Aabb>& boxes, const Viewpoints& viewpoints,
                                   std::vector<Assignment>& assignments) {
   for (std::size_t t = 0; t < track_taken.size(); ++t) {
@@ -175,7 +180,13 @@ void Tracker::State::count_misses(const std::vector<Aabb>& boxes, const Viewpoin
       if (!contains_point(boxes[b], centre)) return;
       merged = true;
       if (b == box_of_older) track.active = false;
-      if (track.id && track.active) assignments[b].merged = true;
+      const std::size_t slot = assignments[b].slot;
+      if (box_taken[b] != 0 && !track.inside_of) {
+        track.inside_of = slot;
+        track.is_part = is_inside(track.expected_box(), wholes[b]);
+      }
+      const bool is_part = track.inside_of == slot && track.is_part;
+      if (track.id && track.active && !is_part) assignments[b].merged = true;
     });
     if (merged) track.detections_since_split = 0;
     const bool occluded = merged || (track.id && viewpoints.occluded(centre, boxes));
@@ -276,6 +287,7 @@ void Tracker::assign(const std::vector<Aabb>& boxes, const TrackConfig& config,
   reserve_ahead(assignments, boxes.size());
   reserve_ahead(s.box_taken, boxes.size());
   reserve_ahead(s.predicted, boxes.size());
+  reserve_ahead(s.wholes, boxes.size());
   assignments.assign(boxes.size(), Assignment());
   s.find_pairs(boxes, config.gate);
   s.assign_boxes(boxes, viewpoints, assignments);

@@ -47,7 +47,7 @@ class Tracker {
     bool moving = false;                                 ///< As in TrackEntry, also without an id.
     Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Over the ground, along the sensor's axes, m/s.
     /// The box probably contains several objects, because the expected centre of another track is inside it.
-    /// That track has an id but no box in this frame.
+    /// That track has an id and no box in this frame. Tracks of parts of this object do not count.
     bool merged = false;
     /// A split of this track is confirmed in this frame: earlier boxes of this track contained two objects. A
     /// split begins when the centre of a new track's first box is inside the expected box of this track. The
