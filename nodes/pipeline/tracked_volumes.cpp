@@ -56,6 +56,13 @@ Aabb box_of(const FrameResult& result, std::size_t cluster, const PointView& poi
   return *fit_aabb(points);
 }
 
+// Returns the position of the sensor if the cloud is not merged. An estimated position is not used, because
+// it could change from frame to frame.
+Eigen::Vector3d sensor_of(const Frame& frame, const FrameResult& result) {
+  if (result.config && result.config->ground.sensor) return *result.config->ground.sensor;
+  return result.sensor.confirmed ? result.sensor.position : frame.recorded_origin;
+}
+
 }  // namespace
 
 void TrackedVolumes::filter_boxes(const Tracker::Assignment& assignment, const TrackConfig& config,
@@ -63,7 +70,8 @@ void TrackedVolumes::filter_boxes(const Tracker::Assignment& assignment, const T
   const std::size_t methods = methods_.size(), first = assignment.slot * methods;
   if (filters_.size() < first + methods) filters_.resize(first + methods);
   const BoxState state{tracker_.sensor(), assignment.velocity,  assignment.moving,
-                       assignment.merged, assignment.separated, &viewpoints_};
+                       assignment.merged, assignment.separated, {&viewpoints_, &boxes_, cluster},
+                       config.vehicles};
   for (std::size_t m = 0; m < methods; ++m) {
     BoxFilter& filter = filters_[first + m];
     if (assignment.fresh) filter = BoxFilter(methods_[m]->upright);
@@ -162,7 +170,7 @@ void TrackedVolumes::update(const TrackConfig& config, UsableIsa isa, const std:
   for (std::size_t i = 0; i < result.clusters.size(); ++i)
     boxes_.push_back(tracked_box(box_of(result, i, clusters[i]), clusters[i]));
   if (!predicted_) predict_tracks(frame);
-  viewpoints_.find(frame.sensors, result.points_after_filter(frame.points));
+  viewpoints_.find(frame.sensors, result.points_after_filter(frame.points), sensor_of(frame, result));
   tracker_.assign(boxes_, config, assignments_, viewpoints_);
   if (predicted_) know_objects(isa, clusters, result);
   predicted_ = false;

@@ -107,6 +107,20 @@ TEST(BoxFilter, ASmoothTurnIsTheMeanOfAnglesModulo90) {
   EXPECT_LT(worst, 2);
 }
 
+TEST(BoxFilter, ASmoothYawFollowsTheDirectionOfMotion) {
+  std::mt19937 random(8);
+  for (const double speed : {0.5, 8.0}) {
+    BoxFilter filter;
+    Obb box;
+    for (int i = 0; i < 30; ++i) {
+      const std::vector<float> xyz = block(20, random);
+      const BoxState state = going(20, speed);
+      box = filter.smoothed(filter.align_axes(upright_box(28, 4, 2), state), view(xyz), state, true, false);
+    }
+    EXPECT_NEAR(yaw_of(box), speed > 2 ? 24 : 28, 0.1) << speed;  // the fit is wrong by 8 degrees
+  }
+}
+
 // Fits that are wrong by 40 degrees, then by 80, lead names that follow the fit round by a quarter.
 TEST(BoxFilter, ASmoothBoxKeepsItsFrontWhereFitsAreWrongForAFewFrames) {
   std::mt19937 random(6);
@@ -209,11 +223,13 @@ TEST(BoxFilter, BoxesOfEveryUprightMethodGrowForAnyUp) {
         const Eigen::Matrix3d lift =
             Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up).toRotationMatrix();
         BoxFilter filter;
+        BoxState state;
+        state.extends_vehicles = false;
         Obb box, fitted;
         for (int frame = 0; frame < 8; ++frame) {
           const std::vector<float> xyz = half_block(lift, size, frame < 7);
           fitted = *fit_obb(view(xyz), {method, up});
-          box = filter.smoothed(filter.align_axes(fitted, {}), view(xyz), {}, true, true);
+          box = filter.smoothed(filter.align_axes(fitted, {}), view(xyz), state, true, true);
         }
         EXPECT_NE(box, fitted) << "the filter left it as it was";
         EXPECT_LE((box.axis(2) - up.normalized()).norm(), 1e-15);

@@ -110,6 +110,16 @@ TEST(StreamConfig, ReadsBackAsItIsPrinted) {
   EXPECT_EQ(read.runner.max_age_ms, 12.5);
 }
 
+TEST(StreamConfig, OnlyRoadsHaveVehicles) {
+  for (const char* name : {"indoor", "road", "table"}) {
+    StreamConfig config;
+    apply_preset(name, config.pipeline);
+    EXPECT_EQ(config.pipeline.track.vehicles, name == std::string("road")) << name;
+    EXPECT_EQ(parse_stream_config(to_yaml(config), "").pipeline.track.vehicles,
+              config.pipeline.track.vehicles);
+  }
+}
+
 TEST(StreamConfig, AToleranceThatGrowsReadsBackAndGoesAlone) {
   StreamConfig config;
   config.pipeline.cluster.tolerance_per_metre = 0.015;

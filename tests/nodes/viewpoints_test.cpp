@@ -51,6 +51,17 @@ Rig rig_at(double x) {
   return rig;
 }
 
+TEST(Viewpoints, WithoutAMergedCloudTheViewIsFromThePositionOfTheSensor) {
+  Viewpoints viewpoints;
+  viewpoints.find({}, {}, {0, 10, 0});
+  const Aabb box({4, -1, 0}, {6, 1, 2});
+  EXPECT_FALSE(viewpoints.occluded({10, 0, 1}, {box}));
+  EXPECT_TRUE(viewpoints.occluded({7.5, -5, 1}, {box}));
+  EXPECT_FALSE(viewpoints.occluded({7.5, -5, 1}, {box}, 0));  // the box is the object itself
+  EXPECT_EQ(viewpoints.visible_face(Eigen::Vector3d::UnitY(), Eigen::Vector3d::Zero(), -1, 1),
+            VisibleFace::high);
+}
+
 TEST(Viewpoints, WithoutAMergedCloudTheRulesAreThoseOfTheOrigin) {
   std::mt19937 random(5);
   const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0 * 20 - 10; };
@@ -207,7 +218,7 @@ TEST(BoxFilter, ABoxBetweenTwoSensorsGrowsOnBothSides) {
       whole[i] = whole[i] < 5 ? 3.F : 7.F;
     BoxFilter filter;
     BoxState state;
-    if (merged) state.viewpoints = &viewpoints;
+    if (merged) state.around.viewpoints = &viewpoints;
     filter.smoothed(upright(3, 7), PointView::of(whole.data(), 12, whole.size() / 3), state, false, true);
     const Obb box = filter.smoothed(upright(4, 6), points, state, false, true);
     EXPECT_NEAR(box.half_extents().x(), 2, 1e-6);

@@ -89,6 +89,7 @@ void apply_preset(std::string_view name, PipelineConfig& config) {
   config.filter = filter;
   config.ground = ground;
   config.cluster = cluster;
+  config.track.vehicles = name == "road";
 }
 
 }  // namespace pcl_bv

@@ -138,6 +138,8 @@ void visit_track(Track& c, Visit&& visit) {
           {}, {}, "--smooth"}, c.smooth);
   visit(S{"track.grow", "", "Give tracked upright boxes the largest length and width seen",
           {}, {}, "--grow"}, c.grow);
+  visit(S{"track.vehicles", "", "With grow: boxes of what may be a side of a vehicle are at least 3.9 m x 1.6 m"},
+        c.vehicles);
 }
 
 template <typename Runner, typename Visit>

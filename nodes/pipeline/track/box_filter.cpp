@@ -18,6 +18,7 @@ constexpr double kMovingDecay = 0.5;        // share of weight that older yaws k
 constexpr double kStaticDecay = 0.97;       // share of weight that older yaws keep per frame; static object
 constexpr double kMaxGrowth = 0.15;         // metres per frame; largest growth of a size
 constexpr std::size_t kFreeDetections = 5;  // first detections, in which sizes grow without a limit
+constexpr double kHeadingSpeed = 2;         // m/s; from here on the direction of motion counts as a yaw
 
 // Rotates axes 0 and 1 about axis 2 by quarters of a turn. In one quarter, axis 1 becomes axis 0.
 Eigen::Matrix3d rotated_by_quarters(const Eigen::Matrix3d& axes, int quarters) {
@@ -106,6 +107,12 @@ double BoxFilter::smoothed_yaw(const Obb& box, const BoxState& state) {
     const double weight = box.half_extents().head<2>().maxCoeff();
     cosine_ = decay * cosine_ + weight * std::cos(4 * yaw);
     sine_ = decay * sine_ + weight * std::sin(4 * yaw);
+    const Eigen::Vector3d velocity = state.sensor.linear() * state.velocity;
+    if (state.moving && velocity.head<2>().norm() > kHeadingSpeed) {
+      const double heading = std::atan2(velocity.y(), velocity.x());
+      cosine_ += weight * std::cos(4 * heading);
+      sine_ += weight * std::sin(4 * heading);
+    }
   }
   if (cosine_ == 0 && sine_ == 0) return 0;
   // The result is the rotation from the yaw of the box to the mean yaw, radians.
@@ -137,15 +144,15 @@ Obb BoxFilter::smoothed(const Obb& box, const PointView& points, const BoxState&
   Eigen::Vector3d low, high;
   slabs_of(points, axes, box.center(), low, high);
   if (!(low.array() <= high.array()).all()) return box;
-  for (int i = 0; grow && i < 2; ++i) {
-    const double more =
-        grown_size(static_cast<std::size_t>(i), high[i] - low[i], state.merged) - (high[i] - low[i]);
-    const VisibleFace visible = state.viewpoints->visible_face(axes.col(i), box.center(), low[i], high[i]);
-    const double above = visible == VisibleFace::low ? 1 : visible == VisibleFace::high ? 0 : 0.5;
-    high[i] += above * more;
-    low[i] -= (1 - above) * more;
-  }
-  return Obb::from_slabs(axes, box.center(), low, high);
+  if (!grow) return Obb::from_slabs(axes, box.center(), low, high);
+  ObjectSlabs slabs{axes, box.center(), low, high};
+  for (int i = 0; i < 2; ++i)
+    slabs.grow(i, grown_size(static_cast<std::size_t>(i), slabs.size(i), state.merged),
+               high_face_share(slabs, i, *state.around.viewpoints));
+  const bool moves = state.moving && state.velocity.head<2>().norm() > kHeadingSpeed;
+  if (state.extends_vehicles)
+    extend_vehicle(slabs, moves ? state.velocity : Eigen::Vector3d::Zero(), state.around);
+  return Obb::from_slabs(axes, box.center(), slabs.low, slabs.high);
 }
 
 }  // namespace pcl_bv::detail

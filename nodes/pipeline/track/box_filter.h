@@ -11,7 +11,7 @@
 #include "pcl_bv/nodes/frame.h"
 #include "pcl_bv/points/point_view.h"
 #include "pcl_bv/volumes/obb.h"
-#include "viewpoints.h"
+#include "vehicle_extent.h"
 
 namespace pcl_bv {
 namespace [[gnu::visibility("default")]] detail {
@@ -21,9 +21,10 @@ struct BoxState {
   Pose sensor = Pose::Identity();                      // pose in a fixed frame
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // over the ground, along the sensor's axes, m/s
   bool moving = false;
-  bool merged = false;     // Tracker::Assignment::merged
-  bool separated = false;  // Tracker::Assignment::separated
-  const Viewpoints* viewpoints = &Viewpoints::single();
+  bool merged = false;           // Tracker::Assignment::merged
+  bool separated = false;        // Tracker::Assignment::separated
+  Surroundings around{};         // what may hide parts of the object
+  bool extends_vehicles = true;  // TrackConfig::vehicles
 };
 
 /// Filters the boxes of one object by one method, in the sensor's frame. If the method is not upright, only
@@ -44,13 +45,15 @@ class BoxFilter {
   /// Returns a smoothed box around all points; `box` must come from align_axes().
   ///
   /// If `smooth` is true, the yaw is the mean over time in the fixed frame. Angles are averaged modulo 90
-  /// degrees, so it does not matter which side of the object was measured as the longer one.
+  /// degrees, so it does not matter which side of the object was measured as the longer one. From 2 m/s on,
+  /// the direction of motion has the same weight as the measured yaw.
   ///
   /// If `grow` is true, the filter stores a length and a width that approach the largest measured ones. In
   /// the first five detections, the stored sizes grow without a limit. Later they grow by at most 0.15 m per
   /// frame, because a cluster that contains two objects in one frame is larger than the object. The box gets
-  /// the stored or the measured size, whichever is larger. The box is extended on the side away from the
-  /// sensors, or on both sides if it is between them.
+  /// the stored or the measured size, whichever is larger, and what may be a vehicle gets the size of a small
+  /// car (extend_vehicle()). The box is extended on the side away from the sensors, or on both sides if it is
+  /// between them.
   ///
   /// A merged cluster changes neither the mean yaw nor the stored sizes. A separated cluster restarts the
   /// stored sizes.

@@ -55,7 +55,8 @@ const Viewpoints& Viewpoints::single() {
   return origin;
 }
 
-void Viewpoints::find(const std::vector<SensorPart>& sensors, const PointView& points) {
+void Viewpoints::find(const std::vector<SensorPart>& sensors, const PointView& points,
+                      const Eigen::Vector3d& otherwise) {
   viewpoints_.clear();
   for (const SensorPart& sensor : sensors) {
     if (sensor.count == 0) continue;
@@ -63,15 +64,18 @@ void Viewpoints::find(const std::vector<SensorPart>& sensors, const PointView& p
                       end = position_of(points, sensor.first + sensor.count);
     viewpoints_.push_back({sensor.position, sectors_with_points(points, begin, end, sensor.position)});
   }
-  if (viewpoints_.empty()) viewpoints_.emplace_back();
+  if (viewpoints_.empty()) viewpoints_.push_back({otherwise});
 }
 
-bool Viewpoints::occluded(const Eigen::Vector3d& position, const std::vector<Aabb>& boxes) const {
+bool Viewpoints::occluded(const Eigen::Vector3d& position, const std::vector<Aabb>& boxes,
+                          std::size_t own) const {
   return std::all_of(viewpoints_.begin(), viewpoints_.end(), [&](const Viewpoint& from) {
     const Eigen::Vector3d ray = position - from.position;
     const bool measured = (from.sectors >> sector_of(ray.x(), ray.y()) & 1U) != 0;
-    return !measured || std::any_of(boxes.begin(), boxes.end(),
-                                    [&](const Aabb& box) { return occludes(box, position, from.position); });
+    if (!measured) return true;
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      if (i != own && occludes(boxes[i], position, from.position)) return true;
+    return false;
   });
 }
 

@@ -29,16 +29,19 @@ class Viewpoints {
   static const Viewpoints& single();
 
   /// Replaces the sensors by those of a merged cloud (Frame::sensors) that sent a cloud for this frame. If
-  /// there are none, there is a single sensor at the origin.
+  /// there are none, there is a single sensor at `otherwise`.
   ///
   /// `points` are the points of the merged cloud that passed the filter. They tell in which directions a
   /// sensor measures. Invalid points are ignored. Reads at most about 4096 points of each sensor.
-  void find(const std::vector<SensorPart>& sensors, const PointView& points);
+  void find(const std::vector<SensorPart>& sensors, const PointView& points,
+            const Eigen::Vector3d& otherwise = Eigen::Vector3d::Zero());
 
   /// Returns whether the position is occluded for every sensor. It is occluded for a sensor if a box is in
   /// between (occludes()). It is also treated as occluded for a sensor of a merged cloud that has no points
   /// in the direction of the position, seen from above, because this sensor could not see an object there.
-  bool occluded(const Eigen::Vector3d& position, const std::vector<Aabb>& boxes) const;
+  /// `own` is the number of a box that is left out.
+  bool occluded(const Eigen::Vector3d& position, const std::vector<Aabb>& boxes,
+                std::size_t own = static_cast<std::size_t>(-1)) const;
 
   /// Returns the visible faces of a slab: the positions p with low <= axis.dot(p - origin) <= high.
   VisibleFace visible_face(const Eigen::Vector3d& axis, const Eigen::Vector3d& origin, double low,

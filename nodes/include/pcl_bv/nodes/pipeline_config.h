@@ -142,6 +142,9 @@ struct TrackConfig {
   std::size_t death = 8;  ///< Frames without a detection after which a track is deleted.
   bool smooth = false;    ///< Smooth the yaw of upright boxes over time. The boxes still contain all points.
   bool grow = false;      ///< Give upright boxes the largest length and width seen of the object.
+  /// With `grow`, give upright boxes of what may be one side of a vehicle at least the size of a small car,
+  /// 3.9 m x 1.6 m. For roads; needs z up.
+  bool vehicles = true;
 };
 
 /// A function that returns the name of a setting in messages, such as the option "--up" of a command. `key`
@@ -208,7 +211,7 @@ struct PipelineConfig {
 /// threads on all processors.
 PipelineConfig whole_cloud_config();
 
-/// Replaces the filter, ground and cluster settings by a preset:
+/// Replaces the filter, ground and cluster settings, and `track.vehicles`, by a preset:
 /// - "road": a LiDAR on a vehicle, z up (the defaults, with a tolerance that grows by 1 % of the distance);
 /// - "indoor": a LiDAR on a robot in rooms, z up;
 /// - "table": objects on a table below a depth camera that looks down at them, in the camera's optical frame
