@@ -80,6 +80,8 @@ TEST(WithoutEffect, AreSettingsOfTheGroundWhereNoneIsRemoved) {
               ElementsAre("ground.sensor: has no effect without ground.method zones"));
   EXPECT_THAT(ineffective_settings("ground: {method: plane, sensor: [1, 2, 3], sensor_height: 1}"),
               ElementsAre("ground.sensor: has no effect without ground.method zones"));
+  EXPECT_THAT(ineffective_settings("{ground: {method: plane, sensor: [1, 2, 3]}, track: {enabled: true}}"),
+              IsEmpty());
   EXPECT_THAT(ineffective_settings("ground: {method: slope, sensor_height: 1, cell_size: 2}"),
               ElementsAre("ground.sensor_height: has no effect without ground.method zones or plane"));
   EXPECT_THAT(ineffective_settings("ground: {method: plane, cell_size: 2}"),

@@ -43,7 +43,7 @@ TEST(VehicleExtent, ASideHasTheWidthOfASmallCarBehindIt) {
   expect_plan(extended(visible(20, 20.3, -2, 2), kStands), 20, 21.6, -2, 2);
 }
 
-TEST(VehicleExtent, ASideContinuesBehindTheObjectThatHidesItsEnd) {
+TEST(VehicleExtent, ASideContinuesBehindTheObjectThatOccludesItsEnd) {
   const ObjectSlabs part = visible(20, 20.3, -0.9, 0.9);
   const Aabb left{{10, 0.48, 0}, {11, 2, 1.5}}, right{{10, -2, 0}, {11, -0.48, 1.5}};
   expect_plan(extended(part, kStands, {left}), 20, 21.6, -0.9, 3);

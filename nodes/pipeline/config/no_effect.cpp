@@ -52,7 +52,9 @@ std::vector<std::string> PipelineConfig::ineffective_settings(const SettingName&
         name("ground.method") + " or " + name("cluster.tolerance"));
   const bool grounded = ground.method != GroundMethod::none;
   const std::string method = name("ground.method");
-  check("ground.sensor", ground.sensor.has_value(), ground.method == GroundMethod::zones, method + " zones");
+  check("ground.sensor", ground.sensor.has_value(),
+        ground.method == GroundMethod::zones || track.enabled,  // tracks need the place for occlusions
+        method + " zones");
   check("ground.sensor_height", ground.sensor_height.has_value(),
         ground.method == GroundMethod::zones || ground.method == GroundMethod::plane,
         grounded ? method + " zones or plane" : method);

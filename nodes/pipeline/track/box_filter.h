@@ -23,7 +23,7 @@ struct BoxState {
   bool moving = false;
   bool merged = false;           // Tracker::Assignment::merged
   bool separated = false;        // Tracker::Assignment::separated
-  Surroundings around{};         // what may hide parts of the object
+  Surroundings around{};         // what may occlude parts of the object
   bool extends_vehicles = true;  // TrackConfig::vehicles
 };
 

@@ -18,7 +18,7 @@ constexpr double kLeastLength = 3.9, kLeastWidth = 1.6;  // of a small car
 constexpr double kLeastUpZ = 0.9;   // z of axis 2: sensors and boxes are compared in the plane of x and y
 constexpr double kBeyondEnd = 0.4;  // distance beyond an end at which occlusion is tested
 
-// Whether another object hides the place beyond an end of the visible side.
+// Returns whether another object occludes the place beyond an end of the visible side.
 bool is_occluded(const ObjectSlabs& seen, int axis, bool high, const Surroundings& around) {
   if (around.boxes == nullptr) return false;
   Eigen::Vector3d at = (seen.low + seen.high) / 2;

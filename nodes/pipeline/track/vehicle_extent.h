@@ -27,7 +27,7 @@ struct ObjectSlabs {
   void grow(int axis, double wanted, double above);
 };
 
-/// What may hide parts of an object.
+/// What may occlude parts of an object.
 struct Surroundings {
   const Viewpoints* viewpoints = &Viewpoints::single();
   const std::vector<Aabb>* boxes = nullptr;  ///< All objects of the frame; null if they are not known.

@@ -39,7 +39,7 @@ class Viewpoints {
   /// Returns whether the position is occluded for every sensor. It is occluded for a sensor if a box is in
   /// between (occludes()). It is also treated as occluded for a sensor of a merged cloud that has no points
   /// in the direction of the position, seen from above, because this sensor could not see an object there.
-  /// `own` is the number of a box that is left out.
+  /// The box with the index `own`, if any, is left out.
   bool occluded(const Eigen::Vector3d& position, const std::vector<Aabb>& boxes,
                 std::size_t own = static_cast<std::size_t>(-1)) const;
 
